@@ -1,0 +1,109 @@
+#pragma once
+#include <array>
+#include <concepts>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+
+#include "wordgaze/core/types.hpp"
+
+/// Parameters as plain values: a struct of matrices lists its fields once, and the optimizer,
+/// clipping, checkpoints, initialization, counting and gradient checks walk that list. Gradients and
+/// both Adam moments are objects of the same type.
+namespace wordgaze::nn {
+
+template <class Owner, class Member>
+struct Field {
+  std::string_view name;
+  Member Owner::*member;
+};
+template <class O, class M>
+Field(const char*, M O::*) -> Field<O, M>;
+
+template <class T>
+concept Leaf =
+    std::derived_from<std::remove_cvref_t<T>, Eigen::MatrixBase<std::remove_cvref_t<T>>>;
+template <class T>
+concept Tree = requires { std::remove_cvref_t<T>::fields(); };
+
+/// Where a leaf lies in its tree; a small stack of names, so that walking allocates nothing.
+struct Path {
+  std::array<std::string_view, 8> names{};
+  std::size_t depth = 0;
+
+  Path operator/(std::string_view name) const {
+    Path longer = *this;
+    longer.names.at(longer.depth++) = name;
+    return longer;
+  }
+  /// "memory.hidden_weight"
+  std::string str() const {
+    std::string joined;
+    for (std::size_t i = 0; i < depth; ++i) {
+      if (i > 0) joined += '.';
+      joined += names[i];
+    }
+    return joined;
+  }
+};
+
+namespace detail {
+template <class F, Leaf A, class... B>
+void walk(const Path& path, F& f, A& a, B&... b) {
+  f(path, a, b...);
+}
+template <class F, Tree A, class... B>
+void walk(const Path& path, F& f, A& a, B&... b) {
+  const auto visit = [&](auto field) {
+    walk(path / field.name, f, a.*(field.member), b.*(field.member)...);
+  };
+  std::apply([&](auto... field) { (visit(field), ...); }, std::remove_cvref_t<A>::fields());
+}
+}  // namespace detail
+
+/// Calls f(path, leaf of a, leaf of b...) for each leaf of structurally equal trees, in field order.
+template <class F, Tree A, class... B>
+  requires(std::same_as<std::remove_cvref_t<A>, std::remove_cvref_t<B>> && ...)
+void for_each_parameter(F&& f, A& a, B&... b) {
+  detail::walk(Path{}, f, a, b...);
+}
+
+template <Tree P>
+void set_zero(P& p) {
+  for_each_parameter([](const Path&, auto& leaf) { leaf.setZero(); }, p);
+}
+
+template <Tree P>
+P zeros_like(const P& p) {
+  P zero = p;
+  set_zero(zero);
+  return zero;
+}
+
+template <Tree P>
+Index count(const P& p) {
+  Index total = 0;
+  for_each_parameter([&](const Path&, const auto& leaf) { total += leaf.size(); }, p);
+  return total;
+}
+
+/// Sum of squares over all leaves, accumulated in double.
+template <Tree P>
+double squared_norm(const P& p) {
+  double total = 0;
+  for_each_parameter(
+      [&](const Path&, const auto& leaf) {
+        total += leaf.template cast<double>().squaredNorm();
+      },
+      p);
+  return total;
+}
+
+/// a += b, leaf by leaf.
+template <Tree P>
+void add(P& a, const P& b) {
+  for_each_parameter([](const Path&, auto& x, const auto& y) { x += y; }, a, b);
+}
+
+}  // namespace wordgaze::nn
