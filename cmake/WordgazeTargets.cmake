@@ -6,24 +6,32 @@ target_compile_options(wordgaze_warnings INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
   $<$<BOOL:${WORDGAZE_WERROR}>:-Werror>)
 
-# wordgaze_module(name MODULES dir... LINK target... [PRIVATE target...])
+# wordgaze_module(name MODULES dir... LINK target... [PRIVATE target...] [OPTIONS flag...])
 # A static library wordgaze::name from src/<dir>/*.cpp; an interface library while there are none.
 function(wordgaze_module name)
-  cmake_parse_arguments(arg "" "" "MODULES;LINK;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "" "" "MODULES;LINK;PRIVATE;OPTIONS" ${ARGN})
   set(sources "")
   foreach(dir IN LISTS arg_MODULES)
     file(GLOB found CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${dir}/*.cpp")
     list(APPEND sources ${found})
   endforeach()
-  add_library(wordgaze_${name} STATIC ${sources})
+  if(sources)
+    set(kind STATIC)
+    set(reach PUBLIC)
+  else()
+    set(kind INTERFACE)
+    set(reach INTERFACE)
+  endif()
+  add_library(wordgaze_${name} ${kind} ${sources})
   add_library(wordgaze::${name} ALIAS wordgaze_${name})
-  set_target_properties(wordgaze_${name} PROPERTIES
-    EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
-  target_link_libraries(wordgaze_${name} PUBLIC ${arg_LINK}
-    PRIVATE $<BUILD_INTERFACE:wordgaze_warnings>)
-  foreach(library IN LISTS arg_PRIVATE)
-    target_link_libraries(wordgaze_${name} PRIVATE ${library})
-  endforeach()
+  set_target_properties(wordgaze_${name} PROPERTIES EXPORT_NAME ${name})
+  target_link_libraries(wordgaze_${name} ${reach} ${arg_LINK})
+  if(sources)
+    set_target_properties(wordgaze_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_link_libraries(wordgaze_${name} PRIVATE
+      ${arg_PRIVATE} $<BUILD_INTERFACE:wordgaze_warnings>)
+    target_compile_options(wordgaze_${name} PRIVATE ${arg_OPTIONS})
+  endif()
 endfunction()
 
 # wordgaze_app(name): the program apps/name.cpp, linked with every module that is built.
