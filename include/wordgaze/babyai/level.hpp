@@ -1,0 +1,50 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wordgaze/babyai/instruction.hpp"
+
+namespace wordgaze::babyai {
+
+class Layout;
+
+/// How the `done` action takes part. (spec 6 and 11)
+enum class DoneMode : std::uint8_t {
+  off,         ///< a clause counts when it comes true; done does nothing
+  exact,       ///< BABYAI_DONE_ACTIONS of the reference, with actions passed as numbers
+  exact_enum,  ///< the same with actions passed as enum members, which "and" treats differently
+  sequential,  ///< our own: each clause is declared by its own done, in its order
+};
+
+/// What ends the episode, and how. MiniGrid's families have their own rules behind the step.
+enum class Rule : std::uint8_t { instruction, goal };
+
+/// A generator draws one layout with its instruction; it throws Rejected to start over.
+using Generator = void (*)(Layout& layout);
+
+/// One level: a row of data. What a generator does not use is left at its default.
+struct LevelSpec {
+  std::string id;
+  Generator generate = nullptr;
+  int room_size = 8;  ///< cells along a side, walls included
+  int rows = 3, columns = 3;
+  int max_steps = 0;  ///< 0: navigations of the instruction times the area of all rooms
+  DoneMode done_mode = DoneMode::off;
+  Rule rule = Rule::instruction;
+  bool see_through_walls = false;
+  int actions = 7;
+
+  int objects = 0;      ///< how many the generator scatters
+  bool unique = false;  ///< no two of them of the same type and color
+  int clauses = 1;      ///< of Wordgaze's tasks
+};
+
+/// The level of an id. Throws std::invalid_argument that offers the nearest known ids, or that says
+/// what does not fit.
+LevelSpec find_level(std::string_view id);
+
+/// All ids of MiniGrid and BabyAI that are known, in the order of docs/levels.md.
+std::vector<std::string> level_ids();
+
+}  // namespace wordgaze::babyai

@@ -1,0 +1,27 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace wordgaze::grid {
+
+struct World;
+
+inline constexpr int kViewSize = 7;
+inline constexpr int kViewCells = kViewSize * kViewSize;
+inline constexpr int kImageBytes = kViewCells * 3;
+
+/// The agent's view, as gym's obs["image"]: [x][y][channel], channels type, color, door state. The
+/// agent stands at x = 3, y = 6 and looks to y = 0.
+using ImageView = std::span<std::uint8_t, kImageBytes>;
+
+/// Which cells of the view are seen: bit x of row y.
+using VisibleRows = std::array<std::uint8_t, kViewSize>;
+
+/// Writes what the agent sees; cells that it does not see are (0, 0, 0).
+void observe(const World& world, ImageView image);
+
+/// The cells of the view that the agent sees.
+VisibleRows visible_cells(const World& world);
+
+}  // namespace wordgaze::grid

@@ -1,0 +1,16 @@
+#pragma once
+#include "wordgaze/grid/action.hpp"
+#include "wordgaze/grid/world.hpp"
+
+namespace wordgaze::grid {
+
+/// What an action met that ends MiniGrid's episodes.
+struct Events {
+  bool reached_goal = false;
+  bool entered_lava = false;
+};
+
+/// One action of the agent; the only place where a running world changes. (spec 2.5)
+Events step(World& world, Action action);
+
+}  // namespace wordgaze::grid

@@ -1,0 +1,37 @@
+#pragma once
+#include <vector>
+
+#include "wordgaze/grid/grid.hpp"
+
+namespace wordgaze::grid {
+
+/// Everything there is: the grid, its objects and the agent. A value: a copy is a snapshot.
+struct World {
+  Grid grid;
+  std::vector<Object> objects;     ///< by ObjectId; the first two are "nothing" and the wall
+  ObjectSet sight_blockers = 0;    ///< the objects that hide what lies behind them
+  bool see_through_walls = false;  ///< the agent sees all of its view
+  Position agent = kNowhere;
+  Direction direction = Direction::right;
+  ObjectId carried = kNothing;
+  int step_count = 0;
+
+  /// An empty grid without objects and without agent.
+  void clear(int width, int height);
+
+  /// A new object that stands nowhere yet. Throws std::length_error beyond kMaxObjects.
+  ObjectId add(Type type, Color color, DoorState state = DoorState::open);
+  /// Puts an object into a cell, over what may be there.
+  void put(ObjectId id, Position p);
+  void set_door(ObjectId id, DoorState state);
+
+  const Object& object(ObjectId id) const { return objects[id]; }
+  const Object& object_at(Position p) const { return objects[grid[p]]; }
+  Position front() const { return agent + forward(direction); }
+  /// Whether the object stands in the grid now: not carried, not in a box, not gone.
+  bool stands(ObjectId id) const {
+    return id > kWall && objects[id].position != kNowhere && grid[objects[id].position] == id;
+  }
+};
+
+}  // namespace wordgaze::grid
