@@ -1,0 +1,41 @@
+#pragma once
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace wordgaze {
+
+/// Number of insertions, deletions and replacements of one character that turn `a` into `b`.
+inline std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+    }
+  }
+  return row.back();
+}
+
+/// The known name closest to what was written, for "did you mean ...?"; empty if none is known.
+/// Of equally close ones, the first.
+template <class Names>
+std::string nearest(std::string_view written, const Names& known) {
+  std::string_view best;
+  std::size_t least = std::string_view::npos;
+  for (const std::string_view name : known) {
+    if (const std::size_t distance = edit_distance(written, name); distance < least) {
+      least = distance;
+      best = name;
+    }
+  }
+  return std::string(best);
+}
+
+}  // namespace wordgaze

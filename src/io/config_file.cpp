@@ -1,0 +1,223 @@
+#include "wordgaze/io/config_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+
+#include "wordgaze/core/nearest.hpp"
+#include "wordgaze/core/require.hpp"
+
+namespace wordgaze::io::detail {
+namespace {
+
+using Options = std::span<const Option>;
+
+/// The allowed values: "[1, 4096]", "[0, inf]", "none, linear"; empty if any value will do.
+std::string range_text(const Option& option) {
+  if (option.kind == Kind::choice) return fmt::format("{}", fmt::join(option.choices, ", "));
+  const bool number = option.kind == Kind::integer || option.kind == Kind::real;
+  const bool bounded = std::isfinite(option.lowest) || std::isfinite(option.highest);
+  return number && bounded ? fmt::format("[{}, {}]", option.lowest, option.highest) : "";
+}
+
+std::string expected_text(const Option& option) {
+  const auto in_range = [&](std::string_view type) {
+    const std::string range = range_text(option);
+    return range.empty() ? std::string(type) : fmt::format("{} in the range {}", type, range);
+  };
+  switch (option.kind) {
+    case Kind::section:
+      return "a section";
+    case Kind::boolean:
+      return "true or false";
+    case Kind::integer:
+      return in_range("an integer");
+    case Kind::real:
+      return in_range("a number");
+    case Kind::text:
+      return "text";
+    case Kind::choice:
+      return "one of " + range_text(option);
+  }
+  return "";
+}
+
+std::string value_text(const Value& value) {
+  return std::visit(
+      [](const auto& v) -> std::string {
+        using V = std::remove_cvref_t<decltype(v)>;
+        if constexpr (std::same_as<V, std::string>) return "the text " + toml_string(v);
+        if constexpr (std::same_as<V, bool>) return v ? "true" : "false";
+        if constexpr (std::same_as<V, double>) return "the number " + real_text(v);
+        if constexpr (std::same_as<V, std::int64_t>) return fmt::format("the integer {}", v);
+      },
+      value);
+}
+
+std::string last_name(std::string_view key) {
+  return std::string(key.substr(key.rfind('.') + 1));  // npos + 1 == 0: the whole key
+}
+
+/// The known key that was probably meant: one of a similar name, be it in another section.
+std::string meant(std::string_view written, Options options) {
+  std::string_view best;
+  std::size_t least = std::string_view::npos;
+  for (const Option& option : options) {
+    const std::size_t distance =
+        std::min(edit_distance(written, option.key),
+                 edit_distance(last_name(written), last_name(option.key)) + 1);
+    if (distance < least) {
+      least = distance;
+      best = option.key;
+    }
+  }
+  return std::string(best);
+}
+
+const Option& find(Options options, std::string_view key, std::string_view where) {
+  const auto found = std::ranges::find(options, key, &Option::key);
+  require(found != options.end(), "{}: unknown key '{}'; did you mean '{}'?", where, key,
+          meant(key, options));
+  return *found;
+}
+
+/// What the option's kind makes of the value: an integer will do for a number; else only its own
+/// type.
+std::optional<Value> converted(const Value& value, Kind kind) {
+  if (kind == Kind::real && std::holds_alternative<std::int64_t>(value)) {
+    return static_cast<double>(std::get<std::int64_t>(value));
+  }
+  const bool same =
+      (kind == Kind::boolean && std::holds_alternative<bool>(value)) ||
+      (kind == Kind::integer && std::holds_alternative<std::int64_t>(value)) ||
+      (kind == Kind::real && std::holds_alternative<double>(value)) ||
+      ((kind == Kind::text || kind == Kind::choice) && std::holds_alternative<std::string>(value));
+  return same ? std::optional(value) : std::nullopt;
+}
+
+bool within_range(const Value& value, const Option& option) {
+  const auto within = [&](double v) { return v >= option.lowest && v <= option.highest; };
+  if (option.kind == Kind::integer) {
+    return within(static_cast<double>(std::get<std::int64_t>(value)));
+  }
+  return option.kind != Kind::real || within(std::get<double>(value));  // false for NaN
+}
+
+void assign(const Option& option, const Value& value, std::string_view where) {
+  const std::optional<Value> right = converted(value, option.kind);
+  require(right && within_range(*right, option) && option.assign(*right),
+          "{}: {}: expected {}; came {}", where, option.key, expected_text(option),
+          value_text(value));
+}
+
+std::optional<Value> scalar(const toml::node& node) {
+  if (const auto* v = node.as_boolean()) return Value(v->get());
+  if (const auto* v = node.as_integer()) return Value(v->get());
+  if (const auto* v = node.as_floating_point()) return Value(v->get());
+  if (const auto* v = node.as_string()) return Value(v->get());
+  return std::nullopt;
+}
+
+void assign_table(Options options, const toml::table& table, const std::string& prefix,
+                  std::string_view source) {
+  for (const auto& [name, node] : table) {
+    const std::string key = prefix + std::string(name.str());
+    const std::string where = fmt::format("{}:{}", source, name.source().begin.line);
+    const Option& option = find(options, key, where);
+    if (option.kind == Kind::section) {
+      require(node.is_table(), "{}: {}: expected a section; came the value of one setting", where,
+              key);
+      assign_table(options, *node.as_table(), key + ".", source);
+    } else {
+      const std::optional<Value> value = scalar(node);
+      require(value.has_value(), "{}: {}: expected {}; came {}", where, key, expected_text(option),
+              node.is_table() ? "a section" : "a list or a date");
+      assign(option, *value, where);
+    }
+  }
+}
+
+/// What follows "key=" on a command line: TOML where it is TOML, else the bare text.
+Value command_line_value(std::string_view text, Kind kind) {
+  Value bare = std::string(text);
+  try {
+    const toml::table parsed = toml::parse("value = " + std::string(text));
+    const std::optional<Value> value = scalar(*parsed.get("value"));
+    const bool usable = parsed.size() == 1 && value &&
+                        ((kind != Kind::text && kind != Kind::choice) ||
+                         std::holds_alternative<std::string>(*value));
+    return usable ? *value : bare;
+  } catch (const toml::parse_error&) {
+    return bare;
+  }
+}
+
+}  // namespace
+
+void parse_into(Options options, std::string_view toml, std::string_view source) {
+  toml::table table;
+  try {
+    table = toml::parse(toml);
+  } catch (const toml::parse_error& error) {
+    throw std::invalid_argument(fmt::format("{}:{}: not valid TOML: {}", source,
+                                            error.source().begin.line, error.description()));
+  }
+  assign_table(options, table, "", source);
+}
+
+void assign_into(Options options, std::string_view assignment) {
+  const std::size_t equals = assignment.find('=');
+  require(equals != std::string_view::npos && equals > 0,
+          "--set {}: expected section.key=value, as in --set {}=...", assignment,
+          options.empty() ? "key" : options.back().key);
+  const std::string where = fmt::format("--set {}", assignment);
+  const Option& option = find(options, assignment.substr(0, equals), where);
+  require(option.kind != Kind::section, "{}: {} is a section; set one of its keys, as {}.key=value",
+          where, option.key, option.key);
+  assign(option, command_line_value(assignment.substr(equals + 1), option.kind), where);
+}
+
+std::string toml_text(Options options) {
+  std::string out;
+  for (const Option& option : options) {
+    if (option.kind == Kind::section) {
+      out += fmt::format("\n# {}\n[{}]\n", option.description, option.key);
+      continue;
+    }
+    const std::string range = range_text(option);
+    out += fmt::format("# {}{}\n{} = {}\n", option.description, range.empty() ? "" : "; " + range,
+                       last_name(option.key), option.text());
+  }
+  return out;
+}
+
+std::string markdown_text(Options options) {
+  constexpr std::string_view head = "| key | default | range | description |\n|---|---|---|---|\n";
+  std::string out(options.empty() || options.front().kind == Kind::section ? "" : head);
+  for (const Option& option : options) {
+    if (option.kind == Kind::section) {
+      out += fmt::format("\n### {}\n\n{}\n\n{}", option.key, option.description, head);
+    } else {
+      out += fmt::format("| `{}` | `{}` | {} | {} |\n", option.key, option.text(),
+                         range_text(option), option.description);
+    }
+  }
+  return out;
+}
+
+std::vector<std::string> differences(Options a, Options b) {
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i].kind == Kind::section || a[i].text() == b[i].text()) continue;
+    lines.push_back(
+        fmt::format("{}: {} in the first, {} in the second", a[i].key, a[i].text(), b[i].text()));
+  }
+  return lines;
+}
+
+}  // namespace wordgaze::io::detail
