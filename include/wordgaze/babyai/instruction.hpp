@@ -24,8 +24,8 @@ struct Description {
 /// "go to D", "pick up D", "open D", "put D next to E".
 struct Clause {
   Verb verb = Verb::go_to;
-  Description object;
-  Description next_to;  ///< put_next only
+  Description object{};
+  Description next_to{};  ///< put_next only
   /// The wrong door opened or the wrong object picked up is a failure.
   bool strict = false;
 
@@ -50,7 +50,20 @@ struct Instruction {
   Order order = Order::any;
   bool strict = false;  ///< with an order: doing the later part first is a failure
 
+  /// Clauses [begin, end) of one part.
+  struct Part {
+    int begin = 0, end = 0;
+    int size() const { return end - begin; }
+  };
+
   int clauses() const { return first_part + second_part; }
+  /// The part to be done first, and the other one (empty without an order).
+  Part earlier() const { return order == Order::after ? part_b() : part_a(); }
+  Part later() const { return order == Order::after ? part_a() : part_b(); }
+
+  Part part_a() const { return {0, first_part}; }
+  Part part_b() const { return {first_part, clauses()}; }
+
   bool operator==(const Instruction&) const = default;
 };
 

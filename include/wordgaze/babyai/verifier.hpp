@@ -3,39 +3,60 @@
 #include <span>
 #include <vector>
 
-#include "wordgaze/babyai/instruction.hpp"
 #include "wordgaze/babyai/level.hpp"
+#include "wordgaze/babyai/task.hpp"
 #include "wordgaze/grid/action.hpp"
 #include "wordgaze/grid/world.hpp"
 
 namespace wordgaze::babyai {
 
-/// The verdict on an action.
+/// The verdict on an action. `none` is the reference's missing verdict in its done mode.
 enum class Status : std::uint8_t { none, ongoing, success, failure };
 
 /// Watches an instruction being carried out. It knows objects by identity, and where each one stood
-/// when the episode began or something was last dropped: a position may be out of date, as in the
-/// reference. (spec 5 and 6)
+/// when the episode began or something was last dropped: such a position may be out of date, as in
+/// the reference. (spec 5 and 6)
 class Verifier {
  public:
-  /// Looks up what the descriptions mean in this world. False when one of them matches nothing.
-  bool begin(const grid::World& world, const Instruction& instruction, DoneMode mode);
+  /// Starts to watch. Nothing is completed.
+  void begin(const grid::World& world, const Instruction& instruction, DoneMode mode);
 
   /// Looks up again where the objects stand; the reference does so at each drop.
   void refresh(const grid::World& world);
 
   /// Judges the action that led to this world.
-  Status verify(const grid::World& world, const Instruction& instruction, grid::Action action);
+  Status verify(const grid::World& world, const Task& task, grid::Action action);
 
+  /// Counts a clause as done.
   void mark_completed(const Instruction& instruction, int clause);
 
+  /// One 0/1 per clause: completed so far.
   std::span<const std::uint8_t> completion() const { return {completed_.data(), clauses_}; }
+  /// One 0/1 per clause: not completed, and its turn has come.
   std::span<const std::uint8_t> declarable() const { return {declarable_.data(), clauses_}; }
 
  private:
+  using Part = Instruction::Part;
+
+  Status verify_sequential(const grid::World&, const Task&, grid::Action);
+  Status verify_in_order(const grid::World&, const Task&, grid::Action);
+  Status verify_part(const grid::World&, const Task&, grid::Action, Part);
+  Status verify_clause(const grid::World&, const Task&, grid::Action, int k);
+  Status check(const grid::World&, const Task&, grid::Action, int k);
+
+  bool stood_at(const grid::World&, const Meaning&, const Description&, grid::ObjectSet,
+                grid::Position) const;
+  bool completed(Part part) const;
+  void update_turns(const Instruction& instruction);
+
   static constexpr int kMax = Instruction::kMaxClauses;
-  std::size_t clauses_ = 0;
+  DoneMode mode_ = DoneMode::off;
+  std::uint8_t clauses_ = 0;
   std::array<std::uint8_t, kMax> completed_{}, declarable_{};
+  std::array<bool, kMax> matched_{};         // came true at the last action
+  std::array<grid::ObjectId, kMax> held_{};  // what was carried when the clause was last checked
+  grid::ObjectSet seen_ = 0;                 // the objects that stood in the grid ...
+  std::vector<grid::Position> seen_at_;      // ... and where
 };
 
 }  // namespace wordgaze::babyai

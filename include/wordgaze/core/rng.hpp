@@ -2,6 +2,7 @@
 #include <bit>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -14,6 +15,9 @@ class Seed {
   Seed(std::uint64_t value);  // NOLINT: a number is a seed
   /// Decimal digits. Throws std::invalid_argument for anything else (signs, fractions, nothing).
   static Seed parse(std::string_view digits);
+
+  /// The decimal digits.
+  std::string text() const;
 
   /// Digits in base 2^32, least significant first, without leading zeros; a single 0 for zero.
   std::span<const std::uint32_t> words() const { return words_; }

@@ -84,7 +84,7 @@ class Environment {
   void restore(std::span<const std::uint8_t> bytes);
 
  private:
-  void generate();
+  void start(core::Rng rng, std::string_view seed);
 
   std::shared_ptr<const babyai::LevelSpec> spec_;
   core::Rng rng_;

@@ -15,6 +15,7 @@ struct World {
   Direction direction = Direction::right;
   ObjectId carried = kNothing;
   int step_count = 0;
+  int room_size = 0;  ///< cells along a side of a room, walls included; 0: the grid is one room
 
   /// An empty grid without objects and without agent.
   void clear(int width, int height);

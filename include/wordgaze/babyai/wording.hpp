@@ -1,0 +1,11 @@
+#pragma once
+#include "wordgaze/babyai/meaning.hpp"
+#include "wordgaze/babyai/sentence.hpp"
+
+namespace wordgaze::babyai {
+
+/// The sentence of an instruction, word by word as the reference writes it: "a" where several
+/// objects are meant, else "the". (spec 5)
+Sentence wording(const Instruction& instruction, const Meaning& meaning);
+
+}  // namespace wordgaze::babyai

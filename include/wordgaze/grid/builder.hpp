@@ -1,0 +1,77 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+
+#include "wordgaze/core/rng.hpp"
+#include "wordgaze/grid/world.hpp"
+
+namespace wordgaze::grid {
+
+/// Thrown by generators: this layout cannot be used, start over with the random stream where it is.
+struct Rejected {};
+
+/// Random draws and placements, in the order and number of MiniGrid's. (spec 2.2)
+class Builder {
+ public:
+  static constexpr int kUnlimited = std::numeric_limits<int>::max();
+
+  Builder(World& w, core::Rng& r) : world(w), rng(r) {}
+
+  World& world;
+  core::Rng& rng;
+
+  /// Uniform in [low, high).
+  int between(int low, int high) { return low + rng.below(high - low); }
+  bool coin() { return rng.below(2) == 0; }
+  template <class T>
+  const T& pick(std::span<const T> items) {
+    return items[rng.below(static_cast<int>(items.size()))];
+  }
+  template <class T, std::size_t n>
+  const T& pick(const std::array<T, n>& items) {
+    return pick(std::span<const T>(items));
+  }
+  Color color() { return pick(kColorsToDraw); }
+  /// Moves `count` drawn items, without replacement, to the front, the first drawn first. The
+  /// others keep their order.
+  template <class T>
+  void pick_to_front(std::span<T> items, int count) {
+    for (int i = 0; i < count; ++i) {
+      const auto drawn = items.begin() + between(i, static_cast<int>(items.size()));
+      std::rotate(items.begin() + i, drawn, drawn + 1);
+    }
+  }
+
+  /// Puts an object into a random empty cell of a rectangle, away from the agent and where
+  /// `unfit(position)` is false. kNothing only looks for such a cell. Throws Rejected after
+  /// `max_tries` + 1 cells.
+  template <class Unfit>
+  Position place(ObjectId id, Position corner, int width, int height, Unfit unfit,
+                 int max_tries = kUnlimited) {
+    const int left = std::max<int>(corner.x, 0), top = std::max<int>(corner.y, 0);
+    const int right = std::min(left + width, world.grid.width());
+    const int bottom = std::min(top + height, world.grid.height());
+    for (int tries = 0; tries <= max_tries; ++tries) {
+      // Both are drawn even where x alone dooms the cell.
+      const int x = between(left, right);
+      const Position p = at(x, between(top, bottom));
+      if (world.grid[p] != kNothing || p == world.agent || unfit(p)) continue;
+      if (id != kNothing) world.put(id, p);
+      return p;
+    }
+    throw Rejected{};
+  }
+  Position place(ObjectId id, Position corner, int width, int height, int max_tries = kUnlimited) {
+    return place(
+        id, corner, width, height, [](Position) { return false; }, max_tries);
+  }
+  /// Anywhere in the grid.
+  Position place(ObjectId id) { return place(id, {}, world.grid.width(), world.grid.height()); }
+
+  void place_agent(Position corner, int width, int height, int max_tries = kUnlimited);
+  void place_agent() { place_agent({}, world.grid.width(), world.grid.height()); }
+};
+
+}  // namespace wordgaze::grid

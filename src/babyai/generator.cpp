@@ -1,0 +1,77 @@
+#include "wordgaze/babyai/generator.hpp"
+
+#include <bit>
+
+#include "wordgaze/babyai/layout.hpp"
+#include "wordgaze/babyai/wording.hpp"
+
+namespace wordgaze::babyai {
+namespace {
+
+constexpr int kMaxLayouts = 20'000;
+
+// "Put A next to B" must have something left to do.
+bool can_be_put(const grid::World& world, grid::ObjectSet objects, grid::ObjectSet next_to) {
+  if ((objects & next_to) != 0) return false;
+  for (auto a = objects; a != 0; a &= a - 1) {
+    for (auto b = next_to; b != 0; b &= b - 1) {
+      if (manhattan(world.objects[std::countr_zero(a)].position,
+                    world.objects[std::countr_zero(b)].position) == 1) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+bool is_valid(const Layout& layout, const Task& task) {
+  for (int k = 0; k < task.instruction.clauses(); ++k) {
+    if (task.instruction.clause[k].verb == Verb::put_next &&
+        !can_be_put(layout.world, task.meaning.object[k], task.meaning.next_to[k])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// One layout; false when it is rejected.
+bool try_layout(const LevelSpec& level, core::Rng& rng, grid::World& world, Task& task) {
+  try {
+    Layout layout(level, world, rng, task);
+    level.generate(layout);
+    task.meaning = look_up(world, task.instruction);
+    return is_valid(layout, task);
+  } catch (const grid::Rejected&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+bool generate(const LevelSpec& level, core::Rng& rng, grid::World& world, Task& task) {
+  try {
+    int layouts = 1;
+    while (!try_layout(level, rng, world, task)) {
+      if (++layouts > kMaxLayouts) return false;
+    }
+  } catch (const grid::GaveUp&) {
+    return false;
+  }
+  world.see_through_walls = level.see_through_walls;
+  world.carried = grid::kNothing;
+  world.step_count = 0;
+  if (level.rule == Rule::instruction) task.sentence = wording(task.instruction, task.meaning);
+  task.max_steps = step_limit(level, task.instruction);
+  return true;
+}
+
+int step_limit(const LevelSpec& level, const Instruction& instruction) {
+  if (level.max_steps != 0) return level.max_steps;
+  int navigations = 0;
+  for (int k = 0; k < instruction.clauses(); ++k) {
+    navigations += instruction.clause[k].verb == Verb::put_next ? 2 : 1;
+  }
+  return navigations * level.room_size * level.room_size * level.rows * level.columns;
+}
+
+}  // namespace wordgaze::babyai

@@ -1,0 +1,176 @@
+#include "wordgaze/babyai/verifier.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace wordgaze::babyai {
+
+using grid::Action;
+using grid::ObjectId;
+using grid::ObjectSet;
+using grid::Position;
+using grid::World;
+
+void Verifier::begin(const World& world, const Instruction& instruction, DoneMode mode) {
+  mode_ = mode;
+  clauses_ = static_cast<std::uint8_t>(instruction.clauses());
+  completed_.fill(0);
+  matched_.fill(false);
+  held_.fill(grid::kNothing);
+  refresh(world);
+  update_turns(instruction);
+}
+
+void Verifier::refresh(const World& world) {
+  seen_ = 0;
+  seen_at_.resize(world.objects.size());
+  for (std::size_t k = grid::kWall + 1; k < world.objects.size(); ++k) {
+    if (!world.stands(static_cast<ObjectId>(k))) continue;
+    seen_ |= grid::only(static_cast<ObjectId>(k));
+    seen_at_[k] = world.objects[k].position;
+  }
+}
+
+Status Verifier::verify(const World& world, const Task& task, Action action) {
+  const auto before = completed_;
+  const Status status = mode_ == DoneMode::sequential ? verify_sequential(world, task, action)
+                                                      : verify_in_order(world, task, action);
+  if (completed_ != before) update_turns(task.instruction);
+  return status;
+}
+
+void Verifier::mark_completed(const Instruction& instruction, int clause) {
+  completed_[clause] = 1;
+  update_turns(instruction);
+}
+
+bool Verifier::completed(Part part) const {
+  return std::all_of(completed_.begin() + part.begin, completed_.begin() + part.end,
+                     [](std::uint8_t done) { return done != 0; });
+}
+
+void Verifier::update_turns(const Instruction& instruction) {
+  const Part turn = completed(instruction.earlier()) ? instruction.later() : instruction.earlier();
+  declarable_.fill(0);
+  for (int k = turn.begin; k < turn.end; ++k) declarable_[k] = !completed_[k];
+}
+
+Status Verifier::verify_sequential(const World& world, const Task& task, Action action) {
+  if (action != Action::done) {
+    for (int k = 0; k < clauses_; ++k) {
+      if (declarable_[k]) matched_[k] = check(world, task, action, k) == Status::success;
+    }
+    return Status::ongoing;
+  }
+  bool declared = false;
+  for (int k = 0; k < clauses_; ++k) {
+    if (!declarable_[k] || !matched_[k]) continue;
+    completed_[k] = 1;
+    declared = true;
+  }
+  if (!declared) return Status::failure;
+  // What comes next must match on a later action: a match seen earlier does not count.
+  matched_.fill(false);
+  return completed({0, clauses_}) ? Status::success : Status::ongoing;
+}
+
+Status Verifier::verify_in_order(const World& world, const Task& task, Action action) {
+  const Instruction& instruction = task.instruction;
+  const Part first = instruction.earlier(), second = instruction.later();
+  if (instruction.order == Order::any) return verify_part(world, task, action, first);
+  if (!completed(first)) {
+    const Status status = verify_part(world, task, action, first);
+    if (status == Status::failure) return status;
+    if (status != Status::success) {
+      const bool out_of_order =
+          instruction.strict && verify_part(world, task, action, second) == Status::success;
+      return out_of_order ? Status::failure : Status::ongoing;
+    }
+    // The action that completes the first part may complete the second as well.
+  }
+  const Status status = verify_part(world, task, action, second);
+  return status == Status::none ? Status::ongoing : status;
+}
+
+Status Verifier::verify_part(const World& world, const Task& task, Action action, Part part) {
+  if (part.size() == 1) {
+    const Status status = verify_clause(world, task, action, part.begin);
+    if (status == Status::success) completed_[part.begin] = 1;
+    return status;
+  }
+  int failures = 0;
+  for (int k = part.begin; k < part.end; ++k) {
+    if (completed_[k]) continue;
+    const Status status = verify_clause(world, task, action, k);
+    if (status == Status::success) completed_[k] = 1;
+    failures += status == Status::failure;
+  }
+  // A failure of one clause is ignored; so are failures of both, but for one case.
+  if (mode_ == DoneMode::exact_enum && action == Action::done && failures == 2) {
+    return Status::failure;
+  }
+  return completed(part) ? Status::success : Status::ongoing;
+}
+
+Status Verifier::verify_clause(const World& world, const Task& task, Action action, int k) {
+  if (mode_ == DoneMode::off) return check(world, task, action, k);
+  if (action == Action::done) return matched_[k] ? Status::success : Status::failure;
+  matched_[k] = check(world, task, action, k) == Status::success;
+  return Status::none;
+}
+
+Status Verifier::check(const World& world, const Task& task, Action action, int k) {
+  const Clause& clause = task.instruction.clause[k];
+  const Meaning& meaning = task.meaning;
+  const ObjectSet wanted = meaning.object[k];
+  const ObjectId held = std::exchange(held_[k], world.carried);
+  switch (clause.verb) {
+    case Verb::go_to:
+      return stood_at(world, meaning, clause.object, wanted, world.front()) ? Status::success
+                                                                            : Status::ongoing;
+    case Verb::open: {
+      if (action != Action::toggle) return Status::ongoing;
+      const ObjectId id = world.grid[world.front()];
+      const grid::Object& object = world.object(id);
+      if (object.type != grid::Type::door) return Status::ongoing;
+      if (object.state == grid::DoorState::open && (wanted & grid::only(id)) != 0) {
+        return Status::success;
+      }
+      return clause.strict ? Status::failure : Status::ongoing;
+    }
+    case Verb::pickup:
+      if (action != Action::pickup || world.carried == grid::kNothing) return Status::ongoing;
+      if (held == grid::kNothing && (wanted & grid::only(world.carried)) != 0)
+        return Status::success;
+      return clause.strict ? Status::failure : Status::ongoing;
+    case Verb::put_next: {
+      if (clause.strict && action == Action::pickup && world.carried != grid::kNothing) {
+        return Status::failure;
+      }
+      if (action != Action::drop || held == grid::kNothing || (wanted & grid::only(held)) == 0) {
+        return Status::ongoing;
+      }
+      const Position p = world.object(held).position;
+      const bool beside =
+          std::any_of(grid::kForward.begin(), grid::kForward.end(), [&](Position step) {
+            return stood_at(world, meaning, clause.next_to, meaning.next_to[k], p + step);
+          });
+      return beside ? Status::success : Status::ongoing;
+    }
+  }
+  return Status::ongoing;
+}
+
+// Whether one of the objects meant by a description was last seen at a position.
+bool Verifier::stood_at(const World& world, const Meaning& meaning, const Description& description,
+                        ObjectSet meant, Position p) const {
+  for (ObjectSet left = meant & seen_; left != 0; left &= left - 1) {
+    if (seen_at_[std::countr_zero(left)] == p) return true;
+  }
+  return (meant & grid::only(grid::kWall)) != 0 && world.grid.contains(p) &&
+         world.grid[p] == grid::kWall &&
+         lies(p, description.location, meaning.agent, meaning.direction);
+}
+
+}  // namespace wordgaze::babyai

@@ -1,0 +1,99 @@
+#include "wordgaze/babyai/wording.hpp"
+
+namespace wordgaze::babyai {
+namespace {
+
+constexpr int kJoining = -1;
+
+consteval WordId operator""_w(const char* text, std::size_t length) {
+  return word_id({text, length}).value();
+}
+
+template <std::size_t n>
+consteval std::array<WordId, n> word_ids(const std::array<std::string_view, n>& names) {
+  std::array<WordId, n> ids{};
+  // Names that no mission uses ("unseen") stay padding.
+  for (std::size_t k = 0; k < n; ++k) ids[k] = word_id(names[k]).value_or(kPadding);
+  return ids;
+}
+constexpr auto kTypeWords = word_ids(grid::kTypeNames);
+constexpr auto kColorWords = word_ids(grid::kColorNames);
+
+class Writer {
+ public:
+  explicit Writer(const Meaning& meaning) : meaning_(meaning) {}
+
+  void part(const Instruction& instruction, Instruction::Part part) {
+    for (int k = part.begin; k < part.end; ++k) {
+      if (k > part.begin) join({"and"_w});
+      clause(instruction.clause[k], k);
+    }
+  }
+  void join(std::initializer_list<WordId> words) { write(words, kJoining); }
+  const Sentence& sentence() const { return sentence_; }
+
+ private:
+  void write(std::initializer_list<WordId> words, int clause) {
+    for (WordId word : words) sentence_.append(word, clause);
+  }
+
+  void clause(const Clause& clause, int k) {
+    switch (clause.verb) {
+      case Verb::go_to:
+        write({"go"_w, "to"_w}, k);
+        break;
+      case Verb::pickup:
+        write({"pick"_w, "up"_w}, k);
+        break;
+      case Verb::open:
+        write({"open"_w}, k);
+        break;
+      case Verb::put_next:
+        write({"put"_w}, k);
+        break;
+    }
+    description(clause.object, meaning_.object[k], k);
+    if (clause.verb == Verb::put_next) {
+      write({"next"_w, "to"_w}, k);
+      description(clause.next_to, meaning_.next_to[k], k);
+    }
+  }
+
+  void description(const Description& d, grid::ObjectSet meant, int k) {
+    write({several(meant) ? "a"_w : "the"_w}, k);
+    if (d.color) write({kColorWords[static_cast<int>(*d.color)]}, k);
+    write({d.type ? kTypeWords[static_cast<int>(*d.type)] : "object"_w}, k);
+    switch (d.location) {
+      case Location::anywhere:
+        break;
+      case Location::left:
+        write({"on"_w, "your"_w, "left"_w}, k);
+        break;
+      case Location::right:
+        write({"on"_w, "your"_w, "right"_w}, k);
+        break;
+      case Location::front:
+        write({"in"_w, "front"_w, "of"_w, "you"_w}, k);
+        break;
+      case Location::behind:
+        write({"behind"_w, "you"_w}, k);
+        break;
+    }
+  }
+
+  const Meaning& meaning_;
+  Sentence sentence_;
+};
+
+}  // namespace
+
+Sentence wording(const Instruction& instruction, const Meaning& meaning) {
+  Writer writer(meaning);
+  writer.part(instruction, instruction.part_a());
+  if (instruction.order == Order::before) writer.join({","_w, "then"_w});
+  if (instruction.order == Order::after) writer.join({"after"_w, "you"_w});
+  writer.part(instruction, instruction.part_b());
+  return writer.sentence();
+}
+
+}  // namespace wordgaze::babyai

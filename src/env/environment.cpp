@@ -1,0 +1,93 @@
+#include "wordgaze/env/environment.hpp"
+
+#include <fmt/format.h>
+
+#include <random>
+#include <stdexcept>
+#include <utility>
+
+#include "wordgaze/babyai/generator.hpp"
+#include "wordgaze/babyai/wording.hpp"
+#include "wordgaze/core/require.hpp"
+#include "wordgaze/grid/step.hpp"
+
+namespace wordgaze::env {
+
+using babyai::Status;
+using grid::Action;
+
+Environment::Environment(std::string_view id) : Environment(babyai::find_level(id)) {}
+
+Environment::Environment(const babyai::LevelSpec& spec)
+    : spec_(std::make_shared<const babyai::LevelSpec>(spec)) {
+  require(spec.generate != nullptr, "level '{}' has no generator", spec.id);
+}
+
+void Environment::reset(std::uint64_t seed) { start(core::Rng(seed), std::to_string(seed)); }
+
+void Environment::reset(const core::Seed& seed) { start(core::Rng(seed), seed.text()); }
+
+void Environment::reset() {
+  if (!seeded_) return reset(std::uint64_t{std::random_device{}()});
+  start(rng_, "that of the stream that was continued");
+}
+
+void Environment::start(core::Rng rng, std::string_view seed) {
+  // Generated aside, so that a failure changes nothing; kept, so that resets do not allocate.
+  thread_local grid::World world;
+  thread_local babyai::Task task;
+  if (!babyai::generate(*spec_, rng, world, task)) {
+    throw std::runtime_error(fmt::format(
+        "environment '{}': no layout found after many tries; seed: {}", spec_->id, seed));
+  }
+  std::swap(world_, world);
+  task_ = task;
+  rng_ = rng;
+  seeded_ = true;
+  verifier_.begin(world_, task_.instruction, spec_->done_mode);
+}
+
+Transition Environment::step(Action action) {
+  require(static_cast<int>(action) < spec_->actions,
+          "environment '{}': action {}; expected 0 to {}", spec_->id, static_cast<int>(action),
+          spec_->actions - 1);
+  if (!seeded_) {
+    throw std::logic_error(fmt::format("environment '{}': step before the first reset", spec_->id));
+  }
+  grid::step(world_, action);
+  Transition transition{.truncated = world_.step_count >= task_.max_steps};
+  if (action == Action::drop) verifier_.refresh(world_);
+  const Status status = verifier_.verify(world_, task_, action);
+  if (status == Status::success) {
+    transition.reward = 1 - 0.9 * (static_cast<double>(world_.step_count) / task_.max_steps);
+  }
+  transition.terminated = status == Status::success || status == Status::failure;
+  return transition;
+}
+
+void Environment::set_instruction(const babyai::Instruction& instruction) {
+  const babyai::Meaning meaning = look_up(world_, instruction);
+  require(instruction.clauses() > 0, "set_instruction: the instruction has no clauses");
+  for (int k = 0; k < instruction.clauses(); ++k) {
+    require(meaning.object[k] != 0 &&
+                (instruction.clause[k].verb != babyai::Verb::put_next || meaning.next_to[k] != 0),
+            "set_instruction: nothing in this world matches the description of clause {}", k);
+  }
+  task_ = {.instruction = instruction,
+           .meaning = meaning,
+           .sentence = wording(instruction, meaning),
+           .max_steps = step_limit(*spec_, instruction)};
+  verifier_.begin(world_, instruction, spec_->done_mode);
+}
+
+void Environment::mark_completed(int clause) {
+  const auto turns = verifier_.declarable();
+  require(clause >= 0 && clause < static_cast<int>(turns.size()) && turns[clause] != 0,
+          "mark_completed: clause {} is not one whose turn it is", clause);
+  int left = 0;
+  for (std::uint8_t done : verifier_.completion()) left += done == 0;
+  require(left > 1, "mark_completed: clause {} is the last one left", clause);
+  verifier_.mark_completed(task_.instruction, clause);
+}
+
+}  // namespace wordgaze::env

@@ -1,0 +1,221 @@
+#include "wordgaze/grid/room_grid.hpp"
+
+#include <cassert>
+#include <vector>
+
+namespace wordgaze::grid {
+namespace {
+
+constexpr std::array kTypesToDraw{Type::key, Type::ball, Type::box};
+constexpr std::array kSides{Direction::right, Direction::down, Direction::left, Direction::up};
+constexpr int kPlacementTries = 1000;
+constexpr int kConnectionTries = 5000;
+constexpr int kAgentRounds = 100'000;
+
+constexpr Direction opposite(Direction side) { return turned(side, 2); }
+constexpr RoomIndex beyond(RoomIndex room, Direction side) {
+  const Position d = forward(side);
+  return {room.column + d.x, room.row + d.y};
+}
+
+// One bit for each type and color.
+std::uint32_t kind(Type type, Color color) {
+  return 1u << ((static_cast<int>(type) - static_cast<int>(Type::key)) * 6 +
+                static_cast<int>(color));
+}
+
+}  // namespace
+
+RoomGrid::RoomGrid(World& w, core::Rng& r, int room_size, int columns, int rows)
+    : Builder(w, r), size_(room_size), columns_(columns), rows_(rows) {
+  assert(columns * rows <= kMaxRooms);
+  const int pitch = room_size - 1;
+  world.clear(pitch * columns + 1, pitch * rows + 1);
+  world.room_size = room_size;
+  for (int j = 0; j <= rows; ++j) world.grid.wall_row(at(0, j * pitch), world.grid.width());
+  for (int i = 0; i <= columns; ++i) world.grid.wall_column(at(i * pitch, 0), world.grid.height());
+
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      Room& room = at_room({i, j});
+      const int x = i * pitch, y = j * pitch;
+      if (i < columns - 1) {
+        const Position p = at(x + pitch, between(y + 1, y + pitch));
+        room.door_positions[int(Direction::right)] = p;
+        at_room({i + 1, j}).door_positions[int(Direction::left)] = p;
+      }
+      if (j < rows - 1) {
+        const Position p = at(between(x + 1, x + pitch), y + pitch);
+        room.door_positions[int(Direction::down)] = p;
+        at_room({i, j + 1}).door_positions[int(Direction::up)] = p;
+      }
+    }
+  }
+  world.agent = at(columns / 2 * pitch + room_size / 2, rows / 2 * pitch + room_size / 2);
+  world.direction = Direction::right;
+}
+
+RoomIndex RoomGrid::random_room() {
+  const int column = rng.below(columns_);
+  return {column, rng.below(rows_)};
+}
+
+RoomIndex RoomGrid::room_of(Position p) const { return {p.x / (size_ - 1), p.y / (size_ - 1)}; }
+
+bool RoomGrid::contains(RoomIndex room, Position p) const {
+  const Position inside = p - corner(room);
+  return inside.x >= 0 && inside.x < size_ && inside.y >= 0 && inside.y < size_;
+}
+
+bool RoomGrid::has_neighbor(RoomIndex room, Direction side) const {
+  const RoomIndex next = beyond(room, side);
+  return next.column >= 0 && next.column < columns_ && next.row >= 0 && next.row < rows_;
+}
+
+void RoomGrid::place_in_room(ObjectId id, RoomIndex room) {
+  place(
+      id, corner(room), size_, size_, [&](Position p) { return manhattan(p, world.agent) < 2; },
+      kPlacementTries);
+  const Object& object = world.object(id);
+  kinds_ |= kind(object.type, object.color);
+}
+
+ObjectId RoomGrid::add_object(RoomIndex room, std::optional<Type> type,
+                              std::optional<Color> color) {
+  if (!type) type = pick(kTypesToDraw);
+  if (!color) color = this->color();
+  const ObjectId id = world.add(*type, *color);
+  place_in_room(id, room);
+  return id;
+}
+
+ObjectRange RoomGrid::scatter(std::optional<RoomIndex> room, int count, bool unique) {
+  const ObjectRange added{static_cast<ObjectId>(world.objects.size()), count};
+  for (int n = 0; n < count;) {
+    const Color color = this->color();
+    const Type type = pick(kTypesToDraw);
+    if (unique && (kinds_ & kind(type, color)) != 0) continue;
+    add_object(room ? *room : random_room(), type, color);
+    ++n;
+  }
+  return added;
+}
+
+ObjectId RoomGrid::add_door(RoomIndex index, std::optional<Direction> side,
+                            std::optional<Color> color, std::optional<bool> locked) {
+  Room& room = at_room(index);
+  while (!side) {
+    const auto drawn = static_cast<Direction>(rng.below(4));
+    if (has_neighbor(index, drawn) && door(index, drawn) == kNothing) side = drawn;
+  }
+  if (!color) color = this->color();
+  if (!locked) locked = coin();
+  room.locked = *locked;  // as the reference: a later unlocked door clears it
+  const ObjectId id =
+      world.add(Type::door, *color, *locked ? DoorState::locked : DoorState::closed);
+  world.put(id, room.door_positions[int(*side)]);
+  connect(index, *side, id);
+  return id;
+}
+
+void RoomGrid::remove_wall(RoomIndex room, Direction side) {
+  const Position from = corner(room);
+  for (int k = 1; k < size_ - 1; ++k) {
+    switch (side) {
+      case Direction::right:
+        world.grid[from + at(size_ - 1, k)] = kNothing;
+        break;
+      case Direction::down:
+        world.grid[from + at(k, size_ - 1)] = kNothing;
+        break;
+      case Direction::left:
+        world.grid[from + at(0, k)] = kNothing;
+        break;
+      case Direction::up:
+        world.grid[from + at(k, 0)] = kNothing;
+        break;
+    }
+  }
+  connect(room, side, kWall);
+}
+
+void RoomGrid::connect(RoomIndex room, Direction side, ObjectId by) {
+  at_room(room).doors[int(side)] = by;
+  at_room(beyond(room, side)).doors[int(opposite(side))] = by;
+}
+
+void RoomGrid::place_agent(std::optional<RoomIndex> room) {
+  if (!room) room = random_room();
+  for (int round = 0; round < kAgentRounds; ++round) {
+    Builder::place_agent(corner(*room), size_, size_, kPlacementTries);
+    if (world.grid[world.front()] <= kWall) return;
+  }
+  throw GaveUp{};
+}
+
+void RoomGrid::connect_all(std::span<const Color> colors) {
+  for (int tries = 0; tries <= kConnectionTries; ++tries) {
+    if (all_connected()) return;
+    const RoomIndex room = random_room();
+    const auto side = static_cast<Direction>(rng.below(4));
+    if (!has_neighbor(room, side) || door(room, side) != kNothing) continue;
+    if (at_room(room).locked || at_room(beyond(room, side)).locked) continue;
+    const Color color = pick(colors);
+    add_door(room, side, color, false);
+  }
+  throw Rejected{};
+}
+
+bool RoomGrid::all_connected() const {
+  std::array<RoomIndex, kMaxRooms> reached;
+  std::uint32_t seen = 0;
+  int count = 0;
+  const auto reach = [&](RoomIndex room) {
+    const std::uint32_t bit = 1u << (room.row * columns_ + room.column);
+    if ((seen & bit) != 0) return;
+    seen |= bit;
+    reached[count++] = room;
+  };
+  reach(room_of(world.agent));
+  for (int k = 0; k < count; ++k) {
+    const RoomIndex room = reached[k];
+    for (Direction side : kSides) {
+      if (door(room, side) != kNothing) reach(beyond(room, side));
+    }
+  }
+  return count == columns_ * rows_;
+}
+
+bool RoomGrid::all_reachable() const {
+  const Grid& grid = world.grid;
+  // Kept between calls so that resets do not allocate.
+  thread_local std::vector<bool> seen;
+  thread_local std::vector<Position> reached;
+  seen.assign(static_cast<std::size_t>(grid.width() * grid.height()), false);
+  reached.clear();
+  const auto seen_at = [&](Position p) {
+    return seen[static_cast<std::size_t>(p.y * grid.width() + p.x)];
+  };
+  const auto reach = [&](Position p) {
+    if (seen_at(p)) return;
+    seen_at(p) = true;
+    const ObjectId id = grid[p];
+    if (id == kNothing || world.object(id).type == Type::door) reached.push_back(p);
+  };
+  reach(world.agent);
+  while (!reached.empty()) {
+    const Position p = reached.back();
+    reached.pop_back();
+    for (Position step : kForward) {
+      if (grid.contains(p + step)) reach(p + step);
+    }
+  }
+  for (std::size_t id = kWall + 1; id < world.objects.size(); ++id) {
+    if (world.stands(static_cast<ObjectId>(id)) && !seen_at(world.objects[id].position)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace wordgaze::grid
