@@ -1,0 +1,30 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace wordgaze::io {
+
+namespace detail {
+inline constexpr auto kCrcTable = [] {
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    std::uint32_t crc = i;
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? 0xEDB88320u : 0u);
+    table[i] = crc;
+  }
+  return table;
+}();
+}  // namespace detail
+
+/// The checksum of zlib and PNG. Of bytes that come in pieces: pass the result for the piece
+/// before.
+constexpr std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0) {
+  std::uint32_t crc = ~before;
+  for (const char byte : bytes) {
+    crc = (crc >> 8) ^ detail::kCrcTable[(crc ^ static_cast<std::uint8_t>(byte)) & 0xFF];
+  }
+  return ~crc;
+}
+
+}  // namespace wordgaze::io
