@@ -9,8 +9,8 @@
 #include "wordgaze/core/types.hpp"
 
 /// Parameters as plain values: a struct of matrices lists its fields once, and the optimizer,
-/// clipping, checkpoints, initialization, counting and gradient checks walk that list. Gradients and
-/// both Adam moments are objects of the same type.
+/// clipping, checkpoints, initialization, counting and gradient checks walk that list. Gradients
+/// and both Adam moments are objects of the same type.
 namespace wordgaze::nn {
 
 template <class Owner, class Member>
@@ -22,10 +22,11 @@ template <class O, class M>
 Field(const char*, M O::*) -> Field<O, M>;
 
 template <class T>
-concept Leaf =
-    std::derived_from<std::remove_cvref_t<T>, Eigen::MatrixBase<std::remove_cvref_t<T>>>;
+concept Leaf = std::derived_from<std::remove_cvref_t<T>, Eigen::MatrixBase<std::remove_cvref_t<T>>>;
 template <class T>
-concept Tree = requires { std::remove_cvref_t<T>::fields(); };
+concept Tree = requires {
+  std::remove_cvref_t<T>::fields();
+};
 
 /// Where a leaf lies in its tree; a small stack of names, so that walking allocates nothing.
 struct Path {
@@ -62,10 +63,11 @@ void walk(const Path& path, F& f, A& a, B&... b) {
 }
 }  // namespace detail
 
-/// Calls f(path, leaf of a, leaf of b...) for each leaf of structurally equal trees, in field order.
+/// Calls f(path, leaf of a, leaf of b...) for each leaf of structurally equal trees, in field
+/// order.
 template <class F, Tree A, class... B>
-  requires(std::same_as<std::remove_cvref_t<A>, std::remove_cvref_t<B>> && ...)
-void for_each_parameter(F&& f, A& a, B&... b) {
+requires(std::same_as<std::remove_cvref_t<A>, std::remove_cvref_t<B>>&&...) void for_each_parameter(
+    F&& f, A& a, B&... b) {
   detail::walk(Path{}, f, a, b...);
 }
 
@@ -93,9 +95,7 @@ template <Tree P>
 double squared_norm(const P& p) {
   double total = 0;
   for_each_parameter(
-      [&](const Path&, const auto& leaf) {
-        total += leaf.template cast<double>().squaredNorm();
-      },
+      [&](const Path&, const auto& leaf) { total += leaf.template cast<double>().squaredNorm(); },
       p);
   return total;
 }

@@ -1,0 +1,282 @@
+#pragma once
+#include "wordgaze/babyai/vocabulary.hpp"
+#include "wordgaze/grid/action.hpp"
+#include "wordgaze/model/config.hpp"
+#include "wordgaze/model/filtered_input.hpp"
+#include "wordgaze/model/head.hpp"
+#include "wordgaze/model/task_attention.hpp"
+#include "wordgaze/model/text_encoder.hpp"
+#include "wordgaze/model/visual_encoder.hpp"
+#include "wordgaze/nn/lstm.hpp"
+
+namespace wordgaze::model {
+
+/// The agent's input: `shape.batch` sequences of `shape.steps` frames, one column a frame,
+/// time-major.
+template <std::floating_point S>
+struct Frames {
+  nn::SequenceShape shape;
+  CellMatrix cells;                   ///< [49, T*B] code indices of the alphabet
+  std::vector<int> mission_of;        ///< [T*B] index into Missions
+  Matrix<S> keep;                     ///< [1, T*B] 0 where an episode begins, else 1
+  Matrix<S> completion;               ///< [clauses, T*B] c_t; 0 for clauses that do not exist
+  typename nn::Lstm<S>::State start;  ///< memory before the first step
+
+  void resize(const Config& config, nn::SequenceShape new_shape) {
+    shape = new_shape;
+    cells.setZero(grid::kViewCells, shape.columns());
+    mission_of.assign(static_cast<std::size_t>(shape.columns()), 0);
+    keep.setOnes(1, shape.columns());
+    completion.setZero(config.clauses, shape.columns());
+    start.resize(config.memory_size, shape.batch);
+  }
+};
+
+/// The whole network: text-visual attention, memory, text, optional task attention, two heads.
+/// docs/math.md has every equation, docs/architecture.md the data flow with its shapes.
+///
+/// Work is split in two. Tables depend on the weights alone and are rebuilt once a weight version;
+/// frames only gather from them. So the backward pass of the frames ends in the gradients of the
+/// tables, and these turn into gradients of the weights once a minibatch.
+template <std::floating_point S>
+struct Agent {
+  using Attention = TextVisualAttention<S>;
+  using Memory = nn::Lstm<S>;
+
+  Config config;
+  CellAlphabet alphabet;
+
+  struct Params {
+    typename VisualEncoder<S>::Params visual;
+    Matrix<S> words;  ///< [E, V] embeddings g~; column 0 (padding) is never read
+    typename Attention::Params attention;
+    typename Memory::Params memory;
+    typename TextEncoder<S>::Params text;
+    typename TaskAttention<S>::Params task;  ///< empty without task attention
+    typename Head<S>::Params actor, critic;
+    static constexpr auto fields() {
+      return std::tuple{
+          nn::Field{"visual", &Params::visual},       nn::Field{"words", &Params::words},
+          nn::Field{"attention", &Params::attention}, nn::Field{"memory", &Params::memory},
+          nn::Field{"text", &Params::text},           nn::Field{"task", &Params::task},
+          nn::Field{"actor", &Params::actor},         nn::Field{"critic", &Params::critic}};
+    }
+  };
+
+  /// What depends on the weights alone. Its gradient has the same type.
+  struct Tables {
+    Matrix<S> visual;                      ///< [C, P]
+    typename Attention::Tables attention;  ///< scores [P, V]
+    Matrix<S> input;                       ///< [4 H, 49 P]
+    Matrix<S> text;                        ///< [3 G, V]
+    Matrix<S> words;                       ///< [E, V]: only as a gradient, from the task module
+  };
+
+  struct Cache {
+    typename Attention::Cache attention;
+    typename TaskAttention<S>::Cache task;
+    typename Memory::Cache memory;
+    typename TextEncoder<S>::Cache text;
+    typename Head<S>::Cache actor, critic;
+    Matrix<S> alpha;                // [words, N]: ones without the task module
+    Matrix<S> dalpha;               // [words, N]
+    Matrix<S> scale, dscale;        // [P, N]
+    Matrix<S> features, dfeatures;  // [H + G, N]: memory over text
+    nn::SequenceShape shape;
+
+    const Matrix<S>& logits() const { return actor.output; }   ///< [7, N]
+    const Matrix<S>& values() const { return critic.output; }  ///< [1, N]
+  };
+
+  Params make_params() const {
+    const Config& c = config;
+    Params p;
+    VisualEncoder<S>::resize(p.visual, c.channels);
+    p.words.resize(c.word_size, babyai::kVocabularySize);
+    if (c.attention) Attention::resize(p.attention, c.key_size, c.word_size, c.channels);
+    Memory::resize(p.memory, grid::kViewCells * c.channels, c.memory_size);
+    nn::Gru<S>::resize(p.text, c.word_size, c.text_size);
+    if (c.task_attention) {
+      nn::Linear<S>::resize(p.task.hidden, c.word_size + c.clauses, c.task_size);
+      nn::Linear<S>::resize(p.task.output, c.task_size, c.task_words);
+    }
+    Head<S>::resize(p.actor, c.memory_size + c.text_size, c.head_size, grid::kActions);
+    Head<S>::resize(p.critic, c.memory_size + c.text_size, c.head_size, 1);
+    nn::set_zero(p);
+    return p;
+  }
+
+  Tables make_tables() const {
+    const Config& c = config;
+    Tables t;
+    t.visual.setZero(c.channels, alphabet.size());
+    if (c.attention) t.attention.resize(c.key_size, babyai::kVocabularySize, alphabet.size());
+    t.input.setZero(4 * c.memory_size, grid::kViewCells * alphabet.size());
+    t.text.setZero(3 * c.text_size, babyai::kVocabularySize);
+    t.words.setZero(c.word_size, babyai::kVocabularySize);
+    return t;
+  }
+
+  /// The tables of these weights, all but `input`.
+  void update_tables(const Params& p, Tables& t) const {
+    VisualEncoder<S>::forward(p.visual, alphabet, t.visual);
+    if (config.attention) Attention::make_tables(p.attention, p.words, t.visual, t.attention);
+    TextEncoder<S>::make_table(p.text, p.words, t.text);
+  }
+  /// Cells [from, to) of the input table, after update_tables: the large one, to be shared out.
+  void update_input_table(const Params& p, Index from, Index to, Tables& t) const {
+    FilteredInput<S>::make_table(p.memory.input_weight, t.visual, from, to, t.input);
+  }
+  void update_all_tables(const Params& p, Tables& t) const {
+    update_tables(p, t);
+    update_input_table(p, 0, grid::kViewCells, t);
+  }
+
+  /// Cells [from, to) of dt.input -> memory.input_weight and dt.visual.
+  void input_table_backward(const Params& p, const Tables& t, const Tables& dt, Index from,
+                            Index to, Params& grads, Out<S> dvisual) const {
+    FilteredInput<S>::table_backward(p.memory.input_weight, t.visual, dt.input, from, to,
+                                     grads.memory.input_weight, dvisual);
+  }
+  /// The other tables' gradients -> weights; dt is used up.
+  void tables_backward(const Params& p, const Tables& t, Tables& dt, Params& grads) const {
+    TextEncoder<S>::table_backward(p.text, p.words, dt.text, grads.text, grads.words);
+    if (config.attention) {
+      Attention::tables_backward(p.attention, p.words, t.visual, t.attention, dt.attention,
+                                 grads.attention, grads.words, dt.visual);
+    }
+    grads.words += dt.words;
+    VisualEncoder<S>::backward(alphabet, t.visual, dt.visual, grads.visual);
+  }
+  void all_tables_backward(const Params& p, const Tables& t, Tables& dt, Params& grads) const {
+    input_table_backward(p, t, dt, 0, grid::kViewCells, grads, dt.visual);
+    tables_backward(p, t, dt, grads);
+  }
+  static void set_zero(Tables& t) {
+    t.visual.setZero();
+    t.attention.scores.setZero();
+    t.input.setZero();
+    t.text.setZero();
+    t.words.setZero();
+  }
+
+  /// Text features of all missions, into cache.text. Once a weight version and set of missions.
+  void encode_missions(const Params& p, const Tables& t, const Missions& missions, Cache& k) const {
+    TextEncoder<S>::forward(p.text, t.text, missions, k.text);
+  }
+
+  /// From frames to logits and values; encode_missions must have run.
+  void forward(const Params& p, const Tables& t, const Frames<S>& x, const Missions& missions,
+               Cache& k) const {
+    fit(x.shape, missions.longest, k);
+    const Index hidden = config.memory_size;
+    if (config.attention) {
+      Attention::forward_words(t.attention, x.cells, missions, x.mission_of, sharpness(),
+                               k.attention);
+      if (config.task_attention) {
+        weigh_words(p, missions, x, k);
+        TaskAttention<S>::forward(p.task, k.task);
+        k.alpha = k.task.alpha.topRows(k.alpha.rows());
+      }
+      Attention::forward_gaze(missions, x.mission_of, k.alpha, static_cast<S>(config.gaze_exponent),
+                              k.attention);
+    }
+    FilteredInput<S>::forward(t.input, x.cells, scale(k), k.memory.gates);
+    Memory::forward(p.memory, x.shape, x.keep, x.start, k.memory);
+    k.features.topRows(hidden) = k.memory.h;
+    const auto text = TextEncoder<S>::text(k.text);
+    for (Index n = 0; n < x.shape.columns(); ++n) {
+      k.features.col(n).tail(config.text_size) =
+          text.col(x.mission_of[static_cast<std::size_t>(n)]);
+    }
+    Head<S>::forward(p.actor, k.features, k.actor);
+    Head<S>::forward(p.critic, k.features, k.critic);
+  }
+
+  /// From dlogits [7, N] and dvalues [1, N] (and, with the task module, cache.task.dlogits: what
+  /// the mask loss asks) to grads and dt; both accumulate (+=).
+  void backward(const Params& p, const Tables& t, const Frames<S>& x, const Missions& missions,
+                In<S> dlogits, In<S> dvalues, Cache& k, Params& grads, Tables& dt) const {
+    const Index hidden = config.memory_size;
+    k.dfeatures.setZero();
+    Head<S>::backward(p.critic, k.features, dvalues, k.critic, grads.critic, k.dfeatures);
+    Head<S>::backward(p.actor, k.features, dlogits, k.actor, grads.actor, k.dfeatures);
+    k.text.dtext.setZero();
+    for (Index n = 0; n < x.shape.columns(); ++n) {
+      k.text.dtext.col(x.mission_of[static_cast<std::size_t>(n)]) +=
+          k.dfeatures.col(n).tail(config.text_size);
+    }
+    TextEncoder<S>::backward(p.text, missions, k.text, grads.text, dt.text);
+    Memory::backward(p.memory, x.shape, x.keep, k.dfeatures.topRows(hidden), k.memory,
+                     grads.memory);
+    FilteredInput<S>::backward(t.input, x.cells, scale(k), k.memory.dgates, dt.input, k.dscale);
+    if (!config.attention) return;
+    Attention::backward_gaze(missions, x.mission_of, k.alpha, static_cast<S>(config.gaze_exponent),
+                             k.dscale, k.attention, k.dalpha);
+    if (config.task_attention) {
+      TaskAttention<S>::backward(p.task, k.dalpha, k.task, grads.task);
+      weigh_words_backward(p, missions, x, k, dt);
+    }
+    Attention::backward_words(missions, x.mission_of, k.alpha, sharpness(), k.attention,
+                              dt.attention.scores);
+  }
+
+ private:
+  S sharpness() const { return static_cast<S>(1 / std::log(config.entropy_base)); }
+  const Matrix<S>& scale(const Cache& k) const {
+    return config.attention ? k.attention.scale : k.scale;
+  }
+
+  /// Sizes the cache for these frames; does nothing from the second call on.
+  void fit(nn::SequenceShape shape, Index longest, Cache& k) const {
+    const Index words = std::max<Index>(longest, k.alpha.rows());
+    if (shape == k.shape && words == k.alpha.rows()) return;
+    require(!config.task_attention || longest <= config.task_words,
+            "agent: a mission has {} words, the Task Attention Module takes {}; raise "
+            "model.task_words",
+            longest, config.task_words);
+    const Index frames = shape.columns(), codes = alphabet.size();
+    k.shape = shape;
+    if (config.attention) k.attention.resize(codes, frames, words);
+    if (config.task_attention) {
+      k.task.resize(config.word_size + config.clauses, config.task_size, config.task_words, frames);
+    }
+    k.memory.resize(config.memory_size, shape);
+    k.actor.resize(config.head_size, grid::kActions, frames);
+    k.critic.resize(config.head_size, 1, frames);
+    k.alpha.setOnes(words, frames);
+    k.dalpha.setZero(config.task_attention ? config.task_words : words, frames);
+    k.scale.setOnes(codes, frames);
+    k.dscale.setZero(codes, frames);
+    for (auto* m : {&k.features, &k.dfeatures}) {
+      m->setZero(config.memory_size + config.text_size, frames);
+    }
+  }
+
+  /// The task module's input: sum_i w_i e_i over c_t.
+  void weigh_words(const Params& p, const Missions& missions, const Frames<S>& x, Cache& k) const {
+    k.task.x.topRows(config.word_size).setZero();
+    k.task.x.bottomRows(config.clauses) = x.completion;
+    for (Index n = 0; n < x.shape.columns(); ++n) {
+      const auto& sentence = missions[x.mission_of[static_cast<std::size_t>(n)]];
+      for (Index i = 0; i < sentence.length; ++i) {
+        k.task.x.col(n).head(config.word_size) +=
+            k.attention.weights(i, n) * p.words.col(sentence.words[static_cast<std::size_t>(i)]);
+      }
+    }
+  }
+  void weigh_words_backward(const Params& p, const Missions& missions, const Frames<S>& x, Cache& k,
+                            Tables& dt) const {
+    for (Index n = 0; n < x.shape.columns(); ++n) {
+      const auto& sentence = missions[x.mission_of[static_cast<std::size_t>(n)]];
+      const auto dx = k.task.dx.col(n).head(config.word_size);
+      for (Index i = 0; i < sentence.length; ++i) {
+        const Index word = sentence.words[static_cast<std::size_t>(i)];
+        k.attention.dweights(i, n) += p.words.col(word).dot(dx);
+        dt.words.col(word) += k.attention.weights(i, n) * dx;
+      }
+    }
+  }
+};
+
+}  // namespace wordgaze::model

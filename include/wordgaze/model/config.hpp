@@ -1,0 +1,61 @@
+#pragma once
+#include "wordgaze/core/require.hpp"
+#include "wordgaze/core/setting.hpp"
+
+namespace wordgaze::model {
+
+/// Sizes and readings of the network, named as in the paper; docs/reading.md gives the reasons.
+struct Config {
+  bool attention = true;        ///< false: the baseline, F = O~
+  bool task_attention = false;  ///< the Task Attention Module
+  int channels = 16;            ///< C: feature maps of the visual encoding O~
+  int word_size = 16;           ///< E: word embedding g~
+  int key_size = 16;            ///< d_k
+  int memory_size = 64;         ///< LSTM
+  int text_size = 32;           ///< GRU over the mission
+  int head_size = 64;           ///< hidden layer of actor and of critic
+  int task_size = 64;           ///< hidden layer of the Task Attention Module
+  int task_words = 32;          ///< outputs of the Task Attention Module: longest mission it takes
+  int clauses = 4;              ///< length of the completion vector c_t
+  double entropy_base = 49;     ///< base of the logarithm in the row entropies H (eq. 2)
+  double gaze_exponent = 2;     ///< p in s(M) = (M / max M)^p
+  double object_prior = 2;  ///< initial score of every word on objects over other cells; 0: none
+  double object_prior_bias = 1;  ///< initial bias of the visual encoder: near-linear at the start
+
+  static constexpr auto settings() {
+    using C = Config;
+    return std::tuple{
+        Setting{"attention", &C::attention, "text-visual attention; false is the baseline"},
+        Setting{"task_attention", &C::task_attention, "the Task Attention Module (mask alpha)"},
+        Setting{"channels", &C::channels, "C, feature maps of the visual encoding", 1, 1024},
+        Setting{"word_size", &C::word_size, "E, size of a word embedding", 1, 1024},
+        Setting{"key_size", &C::key_size, "d_k, size of queries and keys", 1, 1024},
+        Setting{"memory_size", &C::memory_size, "hidden size of the LSTM", 1, 4096},
+        Setting{"text_size", &C::text_size, "hidden size of the GRU over the mission", 1, 4096},
+        Setting{"head_size", &C::head_size, "hidden layer of the actor and of the critic", 1, 4096},
+        Setting{"task_size", &C::task_size, "hidden layer of the Task Attention Module", 1, 4096},
+        Setting{"task_words", &C::task_words,
+                "longest mission, in words, that the Task Attention Module takes", 1, 73},
+        Setting{"clauses", &C::clauses, "length of the completion vector c_t", 1, 4},
+        Setting{"entropy_base", &C::entropy_base,
+                "base of the logarithm in the row entropies (eq. 2); 2.718281828 or 49", 1.1, 1e6},
+        Setting{"gaze_exponent", &C::gaze_exponent, "p in s(M) = (M / max M)^p", 1, 16},
+        Setting{"object_prior", &C::object_prior,
+                "initial score of every word on objects over other cells; 0 switches it off", 0,
+                16},
+        Setting{"object_prior_bias", &C::object_prior_bias,
+                "initial bias of the visual encoder (1: near-linear at the start)", -4, 4},
+    };
+  }
+
+  bool operator==(const Config&) const = default;
+};
+
+/// Throws std::invalid_argument where settings contradict each other.
+inline void validate(const Config& c) {
+  require(c.attention || !c.task_attention,
+          "model: task_attention = true masks word weights, so it needs attention = true (it is "
+          "false); set model.attention=true or model.task_attention=false");
+}
+
+}  // namespace wordgaze::model

@@ -1,0 +1,32 @@
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "wordgaze/babyai/sentence.hpp"
+
+namespace wordgaze::model {
+
+/// The distinct missions of a batch. Missions repeat and do not change within an episode, so text
+/// is encoded once a mission and gathered by index.
+struct Missions {
+  std::vector<babyai::Sentence> sentences;
+  int longest = 0;  ///< words
+
+  int size() const { return static_cast<int>(sentences.size()); }
+  void clear() {
+    sentences.clear();
+    longest = 0;
+  }
+  /// Index of the sentence, added if it is new.
+  int index_of(const babyai::Sentence& sentence) {
+    const auto found = std::find(sentences.begin(), sentences.end(), sentence);
+    if (found != sentences.end()) return static_cast<int>(found - sentences.begin());
+    sentences.push_back(sentence);
+    longest = std::max(longest, static_cast<int>(sentence.length));
+    return size() - 1;
+  }
+  const babyai::Sentence& operator[](int i) const { return sentences[static_cast<std::size_t>(i)]; }
+};
+
+}  // namespace wordgaze::model

@@ -1,0 +1,53 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "wordgaze/nn/parameters.hpp"
+
+/// Central differences against hand-written gradients. Public: whoever adds a layer needs it.
+namespace wordgaze::nn {
+
+struct GradientError {
+  /// Largest |numeric - analytic| / max(|numeric|, |analytic|, 1e-3): relative, but for entries so
+  /// small that the difference quotient itself is mostly rounding.
+  double worst = 0;
+  std::string where;  ///< "memory.hidden_weight[17]"
+};
+
+/// Compares `gradient` with central differences of `loss()` over every entry of `leaf`, which loss
+/// reads. The step suits double precision.
+template <class Leaf, class Gradient, class Loss>
+void check_leaf(const std::string& name, Leaf& leaf, const Gradient& gradient, Loss&& loss,
+                GradientError& error, double step = 1e-5) {
+  for (Index i = 0; i < leaf.size(); ++i) {
+    auto& entry = leaf.data()[i];
+    const auto kept = entry;
+    entry = kept + step;
+    const double above = loss();
+    entry = kept - step;
+    const double below = loss();
+    entry = kept;
+    const double numeric = (above - below) / (2 * step), analytic = gradient.data()[i];
+    const double difference =
+        std::abs(numeric - analytic) / std::max({1e-3, std::abs(numeric), std::abs(analytic)});
+    if (!(difference <= error.worst)) {  // a NaN counts as worst
+      error.worst = difference;
+      error.where = name + "[" + std::to_string(i) + "]";
+    }
+  }
+}
+
+/// The same over every leaf of a parameter tree.
+template <Tree P, class Loss>
+GradientError check_gradients(P& params, const P& grads, Loss&& loss, double step = 1e-5) {
+  GradientError error;
+  for_each_parameter(
+      [&](const Path& path, auto& leaf, const auto& gradient) {
+        check_leaf(path.str(), leaf, gradient, loss, error, step);
+      },
+      params, grads);
+  return error;
+}
+
+}  // namespace wordgaze::nn

@@ -1,0 +1,113 @@
+#pragma once
+#include <concepts>
+
+#include "wordgaze/nn/parameters.hpp"
+#include "wordgaze/nn/sequence.hpp"
+
+namespace wordgaze::nn {
+
+/// GRU over sequences of different lengths; equations (G1)-(G4) in docs/math.md, gates r, z, n.
+/// Past its end a sequence keeps its state, so padding never leaks into the result.
+///
+/// The product of input and input weight is the caller's (words repeat: it is a table over the
+/// vocabulary), so it arrives in `cache.gates` already multiplied.
+///
+/// shapes   cache.gates [3 hidden, T*B] holds W_x x on entry, the gates' values afterwards
+///          active [1, T*B]  1 while the sequence lasts, 0 behind its end
+///          cache.h [hidden, T*B]; the last block is the state after each whole sequence
+/// backward writes cache.dgates, the gradient of W_x x; accumulates into grads all but input_weight
+template <std::floating_point S>
+struct Gru {
+  struct Params {
+    Matrix<S> input_weight;    ///< [3 hidden, in]
+    Matrix<S> hidden_weight;   ///< [3 hidden, hidden]
+    Vector<S> bias;            ///< [3 hidden], added to W_x x
+    Vector<S> candidate_bias;  ///< [hidden], added to the candidate's W_h h, inside the reset gate
+    static constexpr auto fields() {
+      return std::tuple{Field{"input_weight", &Params::input_weight},
+                        Field{"hidden_weight", &Params::hidden_weight},
+                        Field{"bias", &Params::bias},
+                        Field{"candidate_bias", &Params::candidate_bias}};
+    }
+  };
+  static void resize(Params& p, Index in, Index hidden) {
+    p.input_weight.resize(3 * hidden, in);
+    p.hidden_weight.resize(3 * hidden, hidden);
+    p.bias.resize(3 * hidden);
+    p.candidate_bias.resize(hidden);
+  }
+
+  struct Cache {
+    Matrix<S> gates, h, h_prev, recurrent, dgates;  // recurrent: W_h h_prev (+ candidate bias)
+    Matrix<S> dh, drecurrent;
+    void resize(Index hidden, SequenceShape shape) {
+      for (auto* m : {&gates, &dgates, &recurrent, &drecurrent}) {
+        m->resize(3 * hidden, shape.columns());
+      }
+      for (auto* m : {&h, &h_prev}) m->resize(hidden, shape.columns());
+      dh.resize(hidden, shape.batch);
+    }
+  };
+
+  static void forward(const Params& p, SequenceShape shape, In<S> active, Cache& k) {
+    const Index hidden = p.hidden_weight.cols();
+    for (Index t = 0; t < shape.steps; ++t) {
+      auto h_prev = shape.block(k.h_prev, t);
+      if (t == 0) {
+        h_prev.setZero();
+      } else {
+        h_prev = shape.block(k.h, t - 1);
+      }
+      auto x = shape.block(k.gates, t);
+      auto u = shape.block(k.recurrent, t);
+      x.colwise() += p.bias;
+      u.noalias() = p.hidden_weight * h_prev;
+      u.bottomRows(hidden).colwise() += p.candidate_bias;
+      auto r = x.topRows(hidden).array(), z = x.middleRows(hidden, hidden).array();
+      auto n = x.bottomRows(hidden).array();
+      r = (r + u.topRows(hidden).array()).logistic();
+      z = (z + u.middleRows(hidden, hidden).array()).logistic();
+      n = (n + r * u.bottomRows(hidden).array()).tanh();
+      auto h = shape.block(k.h, t).array();
+      h = (S(1) - z) * (n - h_prev.array());  // what this step changes
+      h.rowwise() *= shape.block(active, t).row(0).array();
+      h += h_prev.array();
+    }
+  }
+
+  /// dh_last [hidden, B]: gradient of the last block of cache.h.
+  static void backward(const Params& p, SequenceShape shape, In<S> active, In<S> dh_last, Cache& k,
+                       Params& grads) {
+    const Index hidden = p.hidden_weight.cols();
+    k.dh = dh_last;
+    for (Index t = shape.steps - 1; t >= 0; --t) {
+      const auto x = shape.block(k.gates, t);
+      const auto r = x.topRows(hidden).array(), z = x.middleRows(hidden, hidden).array();
+      const auto n = x.bottomRows(hidden).array();
+      const auto h_prev = shape.block(k.h_prev, t).array();
+      const auto alive = shape.block(active, t).row(0).array();
+      auto dx = shape.block(k.dgates, t);
+      auto du = shape.block(k.drecurrent, t);
+      auto dn = dx.bottomRows(hidden).array();
+      dn = k.dh.array() * (S(1) - z) * (S(1) - n.square());
+      dn.rowwise() *= alive;
+      dx.topRows(hidden).array() =
+          dn * shape.block(k.recurrent, t).bottomRows(hidden).array() * r * (S(1) - r);
+      auto dz = dx.middleRows(hidden, hidden).array();
+      dz = k.dh.array() * (h_prev - n) * z * (S(1) - z);
+      dz.rowwise() *= alive;
+      du.topRows(2 * hidden) = dx.topRows(2 * hidden);
+      du.bottomRows(hidden).array() = dn * r;
+      // dh becomes dh_prev: through the update gate (all of it behind the end) and through W_h.
+      for (Index b = 0; b < shape.batch; ++b) {
+        if (alive(b) != S(0)) k.dh.col(b).array() *= z.col(b);
+      }
+      k.dh.noalias() += p.hidden_weight.transpose() * du;
+    }
+    grads.hidden_weight.noalias() += k.drecurrent * k.h_prev.transpose();
+    grads.bias += k.dgates.rowwise().sum();
+    grads.candidate_bias += k.drecurrent.bottomRows(hidden).rowwise().sum();
+  }
+};
+
+}  // namespace wordgaze::nn
