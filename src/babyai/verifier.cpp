@@ -16,7 +16,7 @@ void Verifier::begin(const World& world, const Instruction& instruction, DoneMod
   mode_ = mode;
   clauses_ = static_cast<std::uint8_t>(instruction.clauses());
   completed_.fill(0);
-  matched_.fill(false);
+  matched_.fill(0);
   held_.fill(grid::kNothing);
   refresh(world);
   update_turns(instruction);
@@ -71,7 +71,7 @@ Status Verifier::verify_sequential(const World& world, const Task& task, Action 
   }
   if (!declared) return Status::failure;
   // What comes next must match on a later action: a match seen earlier does not count.
-  matched_.fill(false);
+  matched_.fill(0);
   return completed({0, clauses_}) ? Status::success : Status::ongoing;
 }
 

@@ -34,6 +34,8 @@ class Verifier {
   std::span<const std::uint8_t> completion() const { return {completed_.data(), clauses_}; }
   /// One 0/1 per clause: not completed, and its turn has come.
   std::span<const std::uint8_t> declarable() const { return {declarable_.data(), clauses_}; }
+  /// One 0/1 per clause: came true at the last action; for the done modes other than off.
+  std::span<const std::uint8_t> matched() const { return {matched_.data(), clauses_}; }
 
  private:
   using Part = Instruction::Part;
@@ -52,8 +54,7 @@ class Verifier {
   static constexpr int kMax = Instruction::kMaxClauses;
   DoneMode mode_ = DoneMode::off;
   std::uint8_t clauses_ = 0;
-  std::array<std::uint8_t, kMax> completed_{}, declarable_{};
-  std::array<bool, kMax> matched_{};         // came true at the last action
+  std::array<std::uint8_t, kMax> completed_{}, declarable_{}, matched_{};
   std::array<grid::ObjectId, kMax> held_{};  // what was carried when the clause was last checked
   grid::ObjectSet seen_ = 0;                 // the objects that stood in the grid ...
   std::vector<grid::Position> seen_at_;      // ... and where

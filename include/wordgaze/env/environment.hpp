@@ -60,6 +60,7 @@ class Environment {
   const core::Rng& rng() const { return rng_; }
 
   const babyai::Instruction& instruction() const { return task_.instruction; }
+  const babyai::Meaning& meaning() const { return task_.meaning; }
   const babyai::Sentence& sentence() const { return task_.sentence; }
   std::string mission() const { return babyai::text(task_.sentence); }
 
@@ -67,6 +68,9 @@ class Environment {
   std::span<const std::uint8_t> completion() const { return verifier_.completion(); }
   /// One 0/1 per clause: not completed, and its turn has come.
   std::span<const std::uint8_t> declarable() const { return verifier_.declarable(); }
+  /// One 0/1 per clause: came true at the last action, where the done mode waits for it to be
+  /// declared.
+  std::span<const std::uint8_t> matched() const { return verifier_.matched(); }
 
   /// Training tools, outside what the reference does:
 
