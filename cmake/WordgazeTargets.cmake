@@ -5,7 +5,7 @@
 add_library(wordgaze_warnings INTERFACE)
 target_compile_options(wordgaze_warnings INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
-  -Wno-maybe-uninitialized
+  -Wno-uninitialized -Wno-maybe-uninitialized
   $<$<BOOL:${WORDGAZE_WERROR}>:-Werror>)
 
 # wordgaze_module(name MODULES dir... LINK target... [PRIVATE target...] [OPTIONS flag...])
