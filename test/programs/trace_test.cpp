@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include "programs/shell.hpp"
+
+namespace wordgaze {
+namespace {
+
+struct Trace : ::testing::Test {
+  Shell run;
+
+  void write_small_trace() {
+    const Shell::Result written =
+        run("trace --env BabyAI-GoToLocal-v0 --seeds 0:3 --policy random --steps 50 "
+            "--out t.jsonl");
+    ASSERT_EQ(written.status, 0) << written.err;
+  }
+};
+
+TEST_F(Trace, ReplaysWhatItWrote) {
+  write_small_trace();
+  const Shell::Result replayed = run("trace --replay t.jsonl");
+  EXPECT_EQ(replayed.status, 0) << replayed.err;
+  EXPECT_NE(replayed.out.find("mismatches 0"), std::string::npos) << replayed.out;
+}
+
+TEST_F(Trace, ReplaysStandardInput) {
+  write_small_trace();
+  const Shell::Result replayed = run("cat t.jsonl | trace --replay -");
+  EXPECT_EQ(replayed.status, 0) << replayed.err;
+  EXPECT_NE(replayed.out.find("mismatches 0"), std::string::npos) << replayed.out;
+}
+
+TEST_F(Trace, TellsWhereAReplayDeviates) {
+  write_small_trace();
+  // Another reward in one step of the trace.
+  run(R"(sed -i '0,/"r":0[^,]*/s//"r":0.5/' t.jsonl)");
+  const Shell::Result replayed = run("trace --replay t.jsonl");
+  EXPECT_EQ(replayed.status, 1);
+  EXPECT_NE(replayed.out.find("mismatches 1"), std::string::npos) << replayed.out;
+  EXPECT_NE((replayed.out + replayed.err).find("0.5"), std::string::npos) << replayed.out;
+}
+
+TEST_F(Trace, RefusesAnUnknownEnvironment) {
+  EXPECT_TRUE(refused(
+      run("trace --env BabyAI-GoToLokal-v0 --seeds 0:1 --policy random --steps 1 --out t.jsonl"),
+      "BabyAI-GoToLokal-v0", "BabyAI-GoToLocal-v0"));
+}
+
+TEST_F(Trace, RefusesAnUnknownEnvironmentInAReplay) {
+  write_small_trace();
+  run("sed -i 's/GoToLocal/GoToPinkBall/' t.jsonl");
+  EXPECT_TRUE(refused(run("trace --replay t.jsonl"), "BabyAI-GoToPinkBall-v0"));
+}
+
+TEST_F(Trace, RefusesARoomTooSmallForItsObjects) {
+  EXPECT_TRUE(
+      refused(run("trace --env Wordgaze-One-N5-K30-v0 --seeds 0:1 --policy random --steps 1 "
+                  "--out t.jsonl"),
+              "Wordgaze-One-N5-K30-v0", "30"));
+}
+
+TEST_F(Trace, RefusesMissingAndForeignFiles) {
+  EXPECT_TRUE(refused(run("trace --replay nothing.jsonl"), "nothing.jsonl"));
+  run.write("poem.txt", "Two roads diverged in a yellow wood\n");
+  EXPECT_TRUE(refused(run("trace --replay poem.txt"), "line 1"));
+}
+
+TEST_F(Trace, RefusesATruncatedFile) {
+  write_small_trace();
+  run("head -c -100 t.jsonl >cut.jsonl");
+  EXPECT_TRUE(refused(run("trace --replay cut.jsonl"), "line"));
+}
+
+TEST_F(Trace, RefusesSeedsThatAreNoRange) {
+  for (const std::string seeds : {"5", "3:1", "-1:2", "a:b"}) {
+    EXPECT_TRUE(refused(run("trace --env BabyAI-GoToLocal-v0 --seeds=" + seeds +
+                            " --policy random --steps 1 --out t.jsonl"),
+                        "seeds"))
+        << seeds;
+  }
+}
+
+}  // namespace
+}  // namespace wordgaze
