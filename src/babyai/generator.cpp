@@ -1,7 +1,9 @@
 #include "wordgaze/babyai/generator.hpp"
 
+#include <algorithm>
 #include <bit>
 
+#include "generators.hpp"
 #include "wordgaze/babyai/layout.hpp"
 #include "wordgaze/babyai/wording.hpp"
 
@@ -24,11 +26,27 @@ bool can_be_put(const grid::World& world, grid::ObjectSet objects, grid::ObjectS
   return true;
 }
 
+// Whether a description asks for a key that a locked door needs.
+bool asks_for_needed_key(const grid::World& world, const Description& d) {
+  return d.type == grid::Type::key && d.color &&
+         std::any_of(world.objects.begin(), world.objects.end(), [&](const grid::Object& object) {
+           return object.type == grid::Type::door && object.state == grid::DoorState::locked &&
+                  object.color == *d.color;
+         });
+}
+
 bool is_valid(const Layout& layout, const Task& task) {
   for (int k = 0; k < task.instruction.clauses(); ++k) {
     if (task.instruction.clause[k].verb == Verb::put_next &&
         !can_be_put(layout.world, task.meaning.object[k], task.meaning.next_to[k])) {
       return false;
+    }
+    if (layout.level.generate == generators::any_mission && layout.level.missions.unblocking) {
+      const Clause& clause = task.instruction.clause[k];
+      if (asks_for_needed_key(layout.world, clause.object) ||
+          asks_for_needed_key(layout.world, clause.next_to)) {
+        return false;
+      }
     }
   }
   return true;
@@ -38,6 +56,7 @@ bool is_valid(const Layout& layout, const Task& task) {
 bool try_layout(const LevelSpec& level, core::Rng& rng, grid::World& world, Task& task) {
   try {
     Layout layout(level, world, rng, task);
+    task.start_carrying = grid::kNothing;
     level.generate(layout);
     task.meaning = look_up(world, task.instruction);
     return is_valid(layout, task);

@@ -7,6 +7,53 @@ namespace wordgaze::babyai::generators {
 
 void one_room_task(Layout& layout);
 
+// go to
+void go_to_red_ball(Layout& layout);
+void go_to_red_ball_among_grey(Layout& layout);
+void go_to_red_or_blue_ball(Layout& layout);
+void go_to_only_object(Layout& layout);
 void go_to_local(Layout& layout);
+void go_to(Layout& layout);
+void go_to_with_open_doors(Layout& layout);
+void go_to_after_unlocking(Layout& layout);
+void go_to_door(Layout& layout);
+void go_to_object_or_door(Layout& layout);
+
+// open
+void open(Layout& layout);
+void open_red_door(Layout& layout);
+void open_door(Layout& layout);
+void open_door_by_color(Layout& layout);
+void open_door_by_location(Layout& layout);
+void open_two_doors(Layout& layout);
+void open_red_then_blue_door(Layout& layout);
+void open_doors_in_order(Layout& layout);
+void act_on_object_or_door(Layout& layout);
+
+// unlock
+void unlock(Layout& layout);
+void unlock_local(Layout& layout);
+void key_in_box(Layout& layout);
+void unlock_and_pick_up(Layout& layout);
+void unblock_unlock_and_pick_up(Layout& layout);
+void unlock_to_unlock(Layout& layout);
+
+// pick up
+void pick_up(Layout& layout);
+void unblock_and_pick_up(Layout& layout);
+void pick_up_among_distractors(Layout& layout);
+void pick_up_above(Layout& layout);
+void pick_up_only_ball(Layout& layout);
+void find_object(Layout& layout);
+void key_corridor(Layout& layout);
+
+// put next
+void put_next_local(Layout& layout);
+void put_next(Layout& layout);
+void put_next_carrying(Layout& layout);
+void move_two_across(Layout& layout);
+
+// LevelGen
+void any_mission(Layout& layout);
 
 }  // namespace wordgaze::babyai::generators

@@ -45,6 +45,22 @@ void Environment::start(core::Rng rng, std::string_view seed) {
   rng_ = rng;
   seeded_ = true;
   verifier_.begin(world_, task_.instruction, spec_->done_mode);
+  if (task_.start_carrying != grid::kNothing) {
+    // As the reference, which does not tell the object that it moved.
+    world_.carried = task_.start_carrying;
+    world_.grid[world_.object(world_.carried).position] = grid::kNothing;
+  }
+}
+
+void Environment::observe(grid::ImageView image) const {
+  if (task_.start_carrying != grid::kNothing && world_.step_count == 0) [[unlikely]] {
+    // The reference's first view is older than its world: the object still lies on the floor.
+    grid::World before = world_;
+    before.put(before.carried, before.object(before.carried).position);
+    before.carried = grid::kNothing;
+    return grid::observe(before, image);
+  }
+  grid::observe(world_, image);
 }
 
 Transition Environment::step(Action action) {

@@ -14,8 +14,8 @@ enum class Location : std::uint8_t { anywhere, left, right, front, behind };
 
 /// Which objects a phrase means: "a red ball on your left", "the object behind you".
 struct Description {
-  std::optional<grid::Type> type;    ///< none: "object"
-  std::optional<grid::Color> color;  ///< none: any
+  std::optional<grid::Type> type{};    ///< none: "object"
+  std::optional<grid::Color> color{};  ///< none: any
   Location location = Location::anywhere;
 
   bool operator==(const Description&) const = default;

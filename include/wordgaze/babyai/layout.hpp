@@ -11,6 +11,8 @@ class Layout : public grid::RoomGrid {
   Layout(const LevelSpec& l, grid::World& w, core::Rng& r, Task& t)
       : RoomGrid(w, r, l.room_size, l.columns, l.rows), level(l), task(t) {}
 
+  static constexpr grid::RoomIndex kMiddle{1, 1};
+
   const LevelSpec& level;
   Task& task;
 
@@ -19,8 +21,14 @@ class Layout : public grid::RoomGrid {
     const grid::Object& object = world.object(id);
     return {.type = object.type, .color = object.color};
   }
+  Description describe_type(grid::ObjectId id) const { return {.type = world.object(id).type}; }
   grid::ObjectId pick_object(grid::ObjectRange objects) {
     return objects[rng.below(objects.size())];
+  }
+
+  /// The instruction of one clause.
+  void ask(Verb verb, const Description& object) {
+    task.instruction = single({.verb = verb, .object = object, .strict = level.strict});
   }
 };
 

@@ -20,6 +20,19 @@ enum class DoneMode : std::uint8_t {
 /// What ends the episode, and how. MiniGrid's families have their own rules behind the step.
 enum class Rule : std::uint8_t { instruction, goal };
 
+/// Shapes of the instructions that LevelGen draws.
+enum class Form : std::uint8_t { clause, both, ordered };
+
+/// What BabyAI's LevelGen may ask for. (spec 7)
+struct MissionSpec {
+  double locked_room = 0.5;     ///< probability that one room is locked
+  bool locations = true;        ///< "on your left"
+  bool unblocking = true;       ///< objects may have to be moved out of the way
+  bool implicit_unlock = true;  ///< the target may be in the locked room
+  std::vector<Verb> verbs{Verb::go_to, Verb::pickup, Verb::open, Verb::put_next};
+  std::vector<Form> forms{Form::clause, Form::both, Form::ordered};
+};
+
 /// A generator draws one layout with its instruction; it throws Rejected to start over.
 using Generator = void (*)(Layout& layout);
 
@@ -38,6 +51,8 @@ struct LevelSpec {
   int objects = 0;      ///< how many the generator scatters
   bool unique = false;  ///< no two of them of the same type and color
   int clauses = 1;      ///< of Wordgaze's tasks
+  bool strict = false;  ///< the wrong door or object is a failure
+  MissionSpec missions{};
 };
 
 /// The level of an id. Throws std::invalid_argument that offers the nearest known ids, or that says

@@ -11,6 +11,8 @@ struct Task {
   Meaning meaning{};
   Sentence sentence{};
   int max_steps = 0;
+  /// What the agent carries from the start, taken off the floor after the first view.
+  grid::ObjectId start_carrying = grid::kNothing;
 };
 
 }  // namespace wordgaze::babyai

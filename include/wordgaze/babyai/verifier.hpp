@@ -37,6 +37,16 @@ class Verifier {
   /// One 0/1 per clause: came true at the last action; for the done modes other than off.
   std::span<const std::uint8_t> matched() const { return {matched_.data(), clauses_}; }
 
+  /// Walks all members, to store or restore them.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(mode_, clauses_, completed_, declarable_, matched_, held_, seen_, seen_at_);
+  }
+  template <class Archive>
+  void archive(Archive& archive) const {
+    archive(mode_, clauses_, completed_, declarable_, matched_, held_, seen_, seen_at_);
+  }
+
  private:
   using Part = Instruction::Part;
 

@@ -47,7 +47,8 @@ class Environment {
   /// reset.
   Transition step(grid::Action action);
 
-  void observe(grid::ImageView image) const { grid::observe(world_, image); }
+  /// Writes the agent's view.
+  void observe(grid::ImageView image) const;
   /// Where the agent looks: 0 right, 1 down, 2 left, 3 up.
   int direction() const { return static_cast<int>(world_.direction); }
 
@@ -88,6 +89,8 @@ class Environment {
   void restore(std::span<const std::uint8_t> bytes);
 
  private:
+  template <class Archive, class Env>
+  static void archive(Archive& archive, Env& env);
   void start(core::Rng rng, std::string_view seed);
 
   std::shared_ptr<const babyai::LevelSpec> spec_;

@@ -36,8 +36,8 @@ class Builder {
   Color color() { return pick(kColorsToDraw); }
   /// Moves `count` drawn items, without replacement, to the front, the first drawn first. The
   /// others keep their order.
-  template <class T>
-  void pick_to_front(std::span<T> items, int count) {
+  template <class Items>
+  void pick_to_front(Items&& items, int count) {
     for (int i = 0; i < count; ++i) {
       const auto drawn = items.begin() + between(i, static_cast<int>(items.size()));
       std::rotate(items.begin() + i, drawn, drawn + 1);

@@ -31,6 +31,16 @@ class Grid {
   void wall_row(Position start, int length);
   void wall_column(Position start, int length);
 
+  /// Walks all members, to store or restore them.
+  template <class Archive>
+  void archive(Archive& archive) {
+    archive(width_, height_, cells_);
+  }
+  template <class Archive>
+  void archive(Archive& archive) const {
+    archive(width_, height_, cells_);
+  }
+
  private:
   // The frame at the right of a row is also the frame at the left of the next.
   std::size_t index(Position p) const {
