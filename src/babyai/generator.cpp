@@ -56,7 +56,7 @@ bool is_valid(const Layout& layout, const Task& task) {
 bool try_layout(const LevelSpec& level, core::Rng& rng, grid::World& world, Task& task) {
   try {
     Layout layout(level, world, rng, task);
-    task.start_carrying = grid::kNothing;
+    task = {};
     level.generate(layout);
     task.meaning = look_up(world, task.instruction);
     return is_valid(layout, task);

@@ -56,4 +56,37 @@ void move_two_across(Layout& layout);
 // LevelGen
 void any_mission(Layout& layout);
 
+// MiniGrid: to the goal
+void empty_room(Layout& layout);
+void empty_room_random_start(Layout& layout);
+void dist_shift_near(Layout& layout);
+void dist_shift_far(Layout& layout);
+void door_key(Layout& layout);
+void lava_gap(Layout& layout);
+void lava_crossing(Layout& layout);
+void simple_crossing(Layout& layout);
+void four_rooms(Layout& layout);
+void dynamic_obstacles(Layout& layout);
+void dynamic_obstacles_random_start(Layout& layout);
+void locked_room(Layout& layout);
+void multi_room(Layout& layout);
+
+// MiniGrid: objects in one grid
+void fetch(Layout& layout);
+void door_of_color(Layout& layout);
+void object_of_color(Layout& layout);
+void put_near(Layout& layout);
+void playground(Layout& layout);
+void red_then_blue_door(Layout& layout);
+void memory(Layout& layout);
+void memory_random_length(Layout& layout);
+
+// MiniGrid: rooms
+void open_locked_door(Layout& layout);
+void box_behind_door(Layout& layout);
+void blocked_box_behind_door(Layout& layout);
+void ball_off_corridor(Layout& layout);
+void obstructed_door(Layout& layout);
+void obstructed_maze(Layout& layout);
+
 }  // namespace wordgaze::babyai::generators

@@ -19,6 +19,13 @@ consteval std::array<WordId, n> word_ids(const std::array<std::string_view, n>& 
 constexpr auto kTypeWords = word_ids(grid::kTypeNames);
 constexpr auto kColorWords = word_ids(grid::kColorNames);
 
+}  // namespace
+
+WordId word_of(grid::Type type) { return kTypeWords[static_cast<int>(type)]; }
+WordId word_of(grid::Color color) { return kColorWords[static_cast<int>(color)]; }
+
+namespace {
+
 class Writer {
  public:
   explicit Writer(const Meaning& meaning) : meaning_(meaning) {}
@@ -61,8 +68,8 @@ class Writer {
 
   void description(const Description& d, grid::ObjectSet meant, int k) {
     write({several(meant) ? "a"_w : "the"_w}, k);
-    if (d.color) write({kColorWords[static_cast<int>(*d.color)]}, k);
-    write({d.type ? kTypeWords[static_cast<int>(*d.type)] : "object"_w}, k);
+    if (d.color) write({word_of(*d.color)}, k);
+    write({d.type ? word_of(*d.type) : "object"_w}, k);
     switch (d.location) {
       case Location::anywhere:
         break;

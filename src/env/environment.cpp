@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "rules.hpp"
 #include "wordgaze/babyai/generator.hpp"
 #include "wordgaze/babyai/wording.hpp"
 #include "wordgaze/core/require.hpp"
@@ -70,12 +71,15 @@ Transition Environment::step(Action action) {
   if (!seeded_) {
     throw std::logic_error(fmt::format("environment '{}': step before the first reset", spec_->id));
   }
+  if (spec_->rule != babyai::Rule::instruction) {
+    return step_by_rule(spec_->rule, world_, task_, rng_, action);
+  }
   grid::step(world_, action);
   Transition transition{.truncated = world_.step_count >= task_.max_steps};
   if (action == Action::drop) verifier_.refresh(world_);
   const Status status = verifier_.verify(world_, task_, action);
   if (status == Status::success) {
-    transition.reward = 1 - 0.9 * (static_cast<double>(world_.step_count) / task_.max_steps);
+    transition.reward = reward(world_, task_);
   }
   transition.terminated = status == Status::success || status == Status::failure;
   return transition;

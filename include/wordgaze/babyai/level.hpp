@@ -17,8 +17,19 @@ enum class DoneMode : std::uint8_t {
   sequential,  ///< our own: each clause is declared by its own done, in its order
 };
 
-/// What ends the episode, and how. MiniGrid's families have their own rules behind the step.
-enum class Rule : std::uint8_t { instruction, goal };
+/// What ends an episode besides time, the goal square and lava.
+enum class Rule : std::uint8_t {
+  instruction,        ///< BabyAI: the verifier of the instruction
+  goal,               ///< nothing more
+  fetch,              ///< picking something up: right if it is of the target's type and color
+  reach_and_declare,  ///< done beside the target's place; toggle fails
+  put_near,           ///< dropping: right if it is the target object, near the place
+  pick_up_target,     ///< picking the target up
+  open_target,        ///< opening the target
+  red_then_blue,      ///< opening both targets in order
+  memory,             ///< standing on the place; standing on the trap fails. Pickup toggles
+  dynamic_obstacles,  ///< walking into something fails; the target and all behind it move about
+};
 
 /// Shapes of the instructions that LevelGen draws.
 enum class Form : std::uint8_t { clause, both, ordered };
@@ -31,6 +42,14 @@ struct MissionSpec {
   bool implicit_unlock = true;  ///< the target may be in the locked room
   std::vector<Verb> verbs{Verb::go_to, Verb::pickup, Verb::open, Verb::put_next};
   std::vector<Form> forms{Form::clause, Form::both, Form::ordered};
+};
+
+/// MiniGrid's ObstructedMaze. (spec 9)
+struct MazeSpec {
+  int agent_column = 1, agent_row = 1;
+  bool key_in_box = true, blocked = true;
+  int quarters = 4;        ///< sides of the middle room with rooms to search
+  bool keys_last = false;  ///< placed behind the balls, which then cannot replace them (v1)
 };
 
 /// A generator draws one layout with its instruction; it throws Rejected to start over.
@@ -53,6 +72,7 @@ struct LevelSpec {
   int clauses = 1;      ///< of Wordgaze's tasks
   bool strict = false;  ///< the wrong door or object is a failure
   MissionSpec missions{};
+  MazeSpec maze{};
 };
 
 /// The level of an id. Throws std::invalid_argument that offers the nearest known ids, or that says

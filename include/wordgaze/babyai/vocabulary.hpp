@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -29,10 +30,9 @@ inline constexpr int kMaxMissionWords = 73;
 constexpr std::string_view word(WordId id) { return kWords[id]; }
 
 constexpr std::optional<WordId> word_id(std::string_view text) {
-  for (std::size_t id = 1; id < kWords.size(); ++id) {
-    if (kWords[id] == text) return static_cast<WordId>(id);
-  }
-  return std::nullopt;
+  const auto found = std::lower_bound(kWords.begin() + 1, kWords.end(), text);
+  if (found == kWords.end() || *found != text) return std::nullopt;
+  return static_cast<WordId>(found - kWords.begin());
 }
 
 }  // namespace wordgaze::babyai

@@ -4,6 +4,9 @@
 
 namespace wordgaze::babyai {
 
+WordId word_of(grid::Type type);
+WordId word_of(grid::Color color);
+
 /// The sentence of an instruction, word by word as the reference writes it: "a" where several
 /// objects are meant, else "the". (spec 5)
 Sentence wording(const Instruction& instruction, const Meaning& meaning);

@@ -32,6 +32,12 @@ constexpr int manhattan(Position a, Position b) {
   return (dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy);
 }
 
+/// Whether two cells are the same or touch, corners included.
+constexpr bool is_near(Position a, Position b) {
+  const int dx = a.x - b.x, dy = a.y - b.y;
+  return dx >= -1 && dx <= 1 && dy >= -1 && dy <= 1;
+}
+
 enum class Direction : std::uint8_t { right, down, left, up };
 
 inline constexpr std::array<Position, 4> kForward{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
