@@ -1,0 +1,34 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wordgaze/episode_begin_t.hpp"
+#include "wordgaze/episode_end_t.hpp"
+#include "wordgaze/lcm/origin.hpp"
+#include "wordgaze/metrics_t.hpp"
+#include "wordgaze/rl/observer.hpp"
+#include "wordgaze/step_t.hpp"
+
+/// Records of training and evaluation as LCM messages (lcmtypes/). `utime` is the time of sending
+/// in microseconds since 1970. A message keeps its counts next to its arrays, and the encoder that
+/// lcm-gen writes trusts them: these functions are the only place where messages are built, and
+/// they throw std::invalid_argument when sizes or ranges are wrong.
+namespace wordgaze::lcm_io {
+
+episode_begin_t to_message(const rl::EpisodeBegin& record, const Origin& origin,
+                           std::int64_t utime);
+step_t to_message(const rl::StepRecord& record, std::int64_t utime);
+episode_end_t to_message(const rl::EpisodeEnd& record, std::int64_t utime);
+metrics_t to_message(const rl::UpdateRecord& record, const Origin& origin, std::int64_t utime);
+
+/// The bytes of a message as they go into a log or over the network.
+template <class Message>
+std::vector<std::uint8_t> encode(const Message& message) {
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(message.getEncodedSize()));
+  message.encode(bytes.data(), 0, static_cast<int>(bytes.size()));
+  return bytes;
+}
+
+}  // namespace wordgaze::lcm_io

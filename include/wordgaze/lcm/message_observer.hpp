@@ -1,0 +1,34 @@
+#pragma once
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "wordgaze/lcm/origin.hpp"
+#include "wordgaze/rl/observer.hpp"
+
+namespace wordgaze::lcm_io {
+
+/// Turns what it hears into encoded messages; where they go is up to the derived class.
+class MessageObserver : public rl::Observer {
+ public:
+  bool wants_episode(std::int64_t episode) final { return episode % every_ == 0; }
+  void on_begin(const rl::EpisodeBegin& record) final;
+  void on_step(const rl::StepRecord& record) final;
+  void on_end(const rl::EpisodeEnd& record) final;
+  void on_update(const rl::UpdateRecord& record) final;
+
+ protected:
+  /// Of the episodes, only every `every`-th is heard. Throws std::invalid_argument when it is not
+  /// positive.
+  MessageObserver(Origin origin, int every);
+
+  /// `utime` is the time of sending in microseconds since 1970.
+  virtual void send(std::string_view channel, std::vector<std::uint8_t> bytes,
+                    std::int64_t utime) = 0;
+
+ private:
+  Origin origin_;
+  int every_;
+};
+
+}  // namespace wordgaze::lcm_io

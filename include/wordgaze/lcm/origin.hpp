@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+namespace wordgaze::lcm_io {
+
+/// Who is sending: goes into the messages that begin an episode or report an update.
+struct Origin {
+  std::string run_id;      ///< joins episodes and metrics of one run
+  std::string checkpoint;  ///< file of the weights; empty while training
+};
+
+inline constexpr std::string_view kEpisodeBeginChannel = "WORDGAZE_EPISODE_BEGIN";
+inline constexpr std::string_view kStepChannel = "WORDGAZE_STEP";
+inline constexpr std::string_view kEpisodeEndChannel = "WORDGAZE_EPISODE_END";
+inline constexpr std::string_view kMetricsChannel = "WORDGAZE_METRICS";
+
+}  // namespace wordgaze::lcm_io

@@ -1,0 +1,104 @@
+#include "wordgaze/lcm/convert.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "wordgaze/core/require.hpp"
+
+namespace wordgaze::lcm_io {
+namespace {
+
+template <class To>
+To narrowed(std::string_view field, std::int64_t value) {
+  require(std::in_range<To>(value), "LCM message: {} is {}, too large for its field", field, value);
+  return static_cast<To>(value);
+}
+
+void require_size(std::string_view field, std::size_t size, std::size_t expected) {
+  require(size == expected, "LCM message: {} has {} values, expected {}", field, size, expected);
+}
+
+}  // namespace
+
+episode_begin_t to_message(const rl::EpisodeBegin& record, const Origin& origin,
+                           std::int64_t utime) {
+  episode_begin_t message{};
+  message.utime = utime;
+  message.episode_id = record.episode;
+  message.env_index = record.lane;
+  message.env_id = record.env_id;
+  message.seed = static_cast<std::int64_t>(record.seed);
+  message.mission = record.mission;
+  for (const babyai::WordId id : record.sentence) {
+    message.tokens.emplace_back(babyai::word(id));
+    message.token_ids.push_back(id);
+  }
+  message.num_tokens = record.sentence.length;
+  message.max_steps = record.max_steps;
+  message.run_id = origin.run_id;
+  message.checkpoint = origin.checkpoint;
+  return message;
+}
+
+step_t to_message(const rl::StepRecord& record, std::int64_t utime) {
+  const std::size_t words = record.word_weights.size();
+  require_size("word_mask", record.word_mask.size(), words);
+  require_size("word_attention", record.word_attention.size(), words * grid::kViewCells);
+  if (words > 0 || !record.attention_map.empty()) {
+    require_size("attention_map", record.attention_map.size(), grid::kViewCells);
+  }
+
+  step_t message{};
+  message.utime = utime;
+  message.episode_id = record.episode;
+  message.env_index = record.lane;
+  message.step = record.step;
+  static_assert(sizeof(message.image) == grid::kImageBytes);
+  std::ranges::copy(record.image, message.image);
+  message.direction = narrowed<std::int8_t>("direction", record.direction);
+  message.agent_x = narrowed<std::int16_t>("agent_x", record.agent_x);
+  message.agent_y = narrowed<std::int16_t>("agent_y", record.agent_y);
+  message.action = narrowed<std::int8_t>("action", record.action);
+  message.value = record.value;
+  message.entropy = record.entropy;
+  message.reward = record.reward;
+  message.terminated = record.terminated;
+  message.truncated = record.truncated;
+  message.num_actions = narrowed<std::int32_t>("num_actions", std::ssize(record.logits));
+  message.logits.assign(record.logits.begin(), record.logits.end());
+  message.num_tokens = narrowed<std::int32_t>("num_tokens", std::ssize(record.word_weights));
+  message.word_weights.assign(record.word_weights.begin(), record.word_weights.end());
+  message.word_mask.assign(record.word_mask.begin(), record.word_mask.end());
+  for (std::size_t word = 0; word < words; ++word) {
+    const auto row = record.word_attention.subspan(word * grid::kViewCells, grid::kViewCells);
+    message.word_attention.emplace_back(row.begin(), row.end());
+  }
+  std::ranges::copy(record.attention_map, message.attention_map);
+  return message;
+}
+
+episode_end_t to_message(const rl::EpisodeEnd& record, std::int64_t utime) {
+  return {.utime = utime,
+          .episode_id = record.episode,
+          .env_index = record.lane,
+          .num_steps = record.steps,
+          .episode_return = record.episode_return,
+          .success = record.success,
+          .truncated = record.truncated};
+}
+
+metrics_t to_message(const rl::UpdateRecord& record, const Origin& origin, std::int64_t utime) {
+  metrics_t message{};
+  message.utime = utime;
+  message.run_id = origin.run_id;
+  message.update = record.update;
+  message.frames = record.frames;
+  message.num_scalars = narrowed<std::int32_t>("num_scalars", std::ssize(record.scalars));
+  for (const rl::Scalar& scalar : record.scalars) {
+    message.name.emplace_back(scalar.name);
+    message.value.push_back(scalar.value);
+  }
+  return message;
+}
+
+}  // namespace wordgaze::lcm_io

@@ -1,0 +1,117 @@
+#include "wordgaze/lcm/decode.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <string_view>
+
+namespace wordgaze::lcm_io::detail {
+namespace {
+
+/// Walks through an encoded message without ever leaving it. Numbers are big-endian; a count stands
+/// before its arrays; a string is its length with the final zero (4 bytes), the text and the zero.
+class Walk {
+ public:
+  Walk(std::span<const std::uint8_t> bytes, std::string_view type) : rest_(bytes), type_(type) {}
+
+  void skip(std::size_t size) { take(size); }
+  void skip_array(std::size_t count, std::size_t size) {
+    expect(count <= rest_.size() / size, "an array is longer than the message");
+    take(count * size);
+  }
+  std::size_t count() {
+    const std::uint32_t number = read_u32();
+    expect(number <= static_cast<std::uint32_t>(std::numeric_limits<std::int32_t>::max()),
+           "a count is negative");
+    return number;
+  }
+  void skip_string() {
+    const std::size_t length = count();
+    expect(length > 0, "a string has no end");
+    expect(take(length).back() == 0, "a string has no end");
+  }
+  void skip_strings(std::size_t count) {
+    for (; count > 0; --count) skip_string();
+  }
+  void fingerprint(std::int64_t hash) {
+    const std::uint64_t high = read_u32();
+    const std::uint64_t low = read_u32();
+    expect((high << 32 | low) == static_cast<std::uint64_t>(hash), "its fingerprint is another");
+  }
+  void end() { expect(rest_.empty(), "there are bytes behind its end"); }
+
+ private:
+  void expect(bool ok, std::string_view otherwise) const {
+    if (!ok) throw std::runtime_error(fmt::format("not a valid {}: {}", type_, otherwise));
+  }
+  std::span<const std::uint8_t> take(std::size_t size) {
+    expect(size <= rest_.size(), "it is truncated");
+    const auto taken = rest_.first(size);
+    rest_ = rest_.subspan(size);
+    return taken;
+  }
+  std::uint32_t read_u32() {
+    std::uint32_t number = 0;
+    for (const std::uint8_t byte : take(4)) number = number << 8 | byte;
+    return number;
+  }
+
+  std::span<const std::uint8_t> rest_;
+  std::string_view type_;
+};
+
+template <class Message>
+Walk begin(std::span<const std::uint8_t> bytes) {
+  Walk walk(bytes, Message::getTypeName());
+  walk.fingerprint(Message::getHash());
+  return walk;
+}
+
+}  // namespace
+
+// The fields in the order of lcmtypes/; tests compare the sizes with the encoder's.
+
+void check(std::span<const std::uint8_t> bytes, const episode_begin_t*) {
+  Walk walk = begin<episode_begin_t>(bytes);
+  walk.skip(8 + 8 + 4);  // utime, episode_id, env_index
+  walk.skip_string();    // env_id
+  walk.skip(8);          // seed
+  walk.skip_string();    // mission
+  const std::size_t tokens = walk.count();
+  walk.skip_strings(tokens);
+  walk.skip_array(tokens, 4);  // token_ids
+  walk.skip(4);                // max_steps
+  walk.skip_strings(2);        // run_id, checkpoint
+  walk.end();
+}
+
+void check(std::span<const std::uint8_t> bytes, const step_t*) {
+  Walk walk = begin<step_t>(bytes);
+  walk.skip(8 + 8 + 4 + 4);          // utime, episode_id, env_index, step
+  walk.skip(147 + 1 + 2 + 2);        // image, direction, agent_x, agent_y
+  walk.skip(1 + 4 + 4 + 4 + 1 + 1);  // action, value, entropy, reward, terminated, truncated
+  walk.skip_array(walk.count(), 4);  // logits
+  const std::size_t tokens = walk.count();
+  walk.skip_array(tokens, 4 + 4 + 4 * 49);  // word_weights, word_mask, word_attention
+  walk.skip(4 * 49);                        // attention_map
+  walk.end();
+}
+
+void check(std::span<const std::uint8_t> bytes, const episode_end_t*) {
+  Walk walk = begin<episode_end_t>(bytes);
+  walk.skip(8 + 8 + 4 + 4 + 8 + 1 + 1);
+  walk.end();
+}
+
+void check(std::span<const std::uint8_t> bytes, const metrics_t*) {
+  Walk walk = begin<metrics_t>(bytes);
+  walk.skip(8);        // utime
+  walk.skip_string();  // run_id
+  walk.skip(8 + 8);    // update, frames
+  const std::size_t scalars = walk.count();
+  walk.skip_strings(scalars);   // name
+  walk.skip_array(scalars, 8);  // value
+  walk.end();
+}
+
+}  // namespace wordgaze::lcm_io::detail

@@ -1,0 +1,47 @@
+#include "wordgaze/lcm/message_observer.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "wordgaze/core/require.hpp"
+#include "wordgaze/lcm/convert.hpp"
+
+namespace wordgaze::lcm_io {
+namespace {
+
+std::int64_t now_utime() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
+}
+
+}  // namespace
+
+MessageObserver::MessageObserver(Origin origin, int every)
+    : origin_(std::move(origin)), every_(every) {
+  require(every > 0, "LCM: expected every k-th episode with k above 0; came {}", every);
+}
+
+void MessageObserver::on_begin(const rl::EpisodeBegin& record) {
+  if (!wants_episode(record.episode)) return;
+  const std::int64_t now = now_utime();
+  send(kEpisodeBeginChannel, encode(to_message(record, origin_, now)), now);
+}
+
+void MessageObserver::on_step(const rl::StepRecord& record) {
+  if (!wants_episode(record.episode)) return;
+  const std::int64_t now = now_utime();
+  send(kStepChannel, encode(to_message(record, now)), now);
+}
+
+void MessageObserver::on_end(const rl::EpisodeEnd& record) {
+  if (!wants_episode(record.episode)) return;
+  const std::int64_t now = now_utime();
+  send(kEpisodeEndChannel, encode(to_message(record, now)), now);
+}
+
+void MessageObserver::on_update(const rl::UpdateRecord& record) {
+  const std::int64_t now = now_utime();
+  send(kMetricsChannel, encode(to_message(record, origin_, now)), now);
+}
+
+}  // namespace wordgaze::lcm_io

@@ -1,0 +1,73 @@
+#pragma once
+#include <array>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "wordgaze/rl/observer.hpp"
+
+namespace wordgaze::lcm_io {
+
+/// A mission and what an agent with attention might report about one step of it, with the buffers
+/// that the records look at.
+struct ExampleRecords {
+  babyai::Sentence sentence = babyai::sentence_of("pick up the blue key");
+  std::string mission = "pick up the blue key";
+  std::array<std::uint8_t, grid::kImageBytes> image{};
+  std::array<float, 7> logits{0.5f, -1, 2, 0, 0, 1e-3f, -30};
+  std::vector<float> weights{0.1f, 0.1f, 0.2f, 0.3f, 0.3f};
+  std::vector<float> mask{1, 1, 0.5f, 0, 1};
+  std::vector<float> attention;
+  std::vector<float> map = std::vector<float>(grid::kViewCells, 0.02f);
+  std::array<rl::Scalar, 2> scalars{{{"success_rate", 0.97}, {"entropy", 0.5}}};
+
+  ExampleRecords() {
+    std::iota(image.begin(), image.end(), std::uint8_t{0});
+    for (int word = 0; word < 5; ++word) {
+      for (int cell = 0; cell < grid::kViewCells; ++cell) {
+        attention.push_back(cell == word ? 0.52f : 0.01f);
+      }
+    }
+  }
+
+  rl::EpisodeBegin begin(std::int64_t episode) const {
+    return {.episode = episode,
+            .lane = 3,
+            .env_id = "Wordgaze-One-N8-K4-v0",
+            .seed = 18446744073709551615u,
+            .sentence = sentence,
+            .mission = mission,
+            .max_steps = 128};
+  }
+  rl::StepRecord step(std::int64_t episode, int number = 0) const {
+    return {.episode = episode,
+            .lane = 3,
+            .step = number,
+            .image = image,
+            .direction = 2,
+            .agent_x = 4,
+            .agent_y = 5,
+            .action = 6,
+            .value = 0.75f,
+            .entropy = 0.25f,
+            .reward = 0.9f,
+            .terminated = true,
+            .truncated = false,
+            .logits = logits,
+            .word_weights = weights,
+            .word_mask = mask,
+            .word_attention = attention,
+            .attention_map = map};
+  }
+  rl::EpisodeEnd end(std::int64_t episode) const {
+    return {.episode = episode,
+            .lane = 3,
+            .steps = 17,
+            .episode_return = 0.88,
+            .success = true,
+            .truncated = false};
+  }
+  rl::UpdateRecord update() const { return {.update = 7, .frames = 8960, .scalars = scalars}; }
+};
+
+}  // namespace wordgaze::lcm_io
