@@ -225,7 +225,8 @@ TEST(Agent, SurvivesScoresFarBelowThoseOutOfView) {
     if (f.frames.cells.data()[i] == hidden_code) f.frames.cells.data()[i] = 1;
   }
   f.tables.attention.scores.row(hidden_code).setConstant(1000);
-  f.agent.forward(f.params, f.tables, f.frames, f.missions, f.cache);
+  f.agent.forward(f.params, f.tables, f.frames, f.missions,
+                  f.agent.encode_missions(f.params, f.tables, f.missions, f.cache), f.cache);
   EXPECT_TRUE(f.cache.logits().allFinite());
   EXPECT_GT(f.cache.attention.scale.colwise().maxCoeff().minCoeff(), 0.99f);
 }

@@ -160,14 +160,15 @@ struct Agent {
     t.words.setZero();
   }
 
-  /// Text features of all missions, into cache.text. Once a weight version and set of missions.
-  void encode_missions(const Params& p, const Tables& t, const Missions& missions, Cache& k) const {
+  /// The text features [G, M or more] of all missions: a block of the cache.
+  auto encode_missions(const Params& p, const Tables& t, const Missions& missions, Cache& k) const {
     TextEncoder<S>::forward(p.text, t.text, missions, k.text);
+    return TextEncoder<S>::text(k.text);
   }
 
-  /// From frames to logits and values; encode_missions must have run.
+  /// From frames and the text features [G, M or more] of their missions to logits and values.
   void forward(const Params& p, const Tables& t, const Frames<S>& x, const Missions& missions,
-               Cache& k) const {
+               In<S> text, Cache& k) const {
     fit(x.shape, missions.longest, k);
     const Index hidden = config.memory_size;
     if (config.attention) {
@@ -184,7 +185,6 @@ struct Agent {
     FilteredInput<S>::forward(t.input, x.cells, scale(k), k.memory.gates);
     Memory::forward(p.memory, x.shape, x.keep, x.start, k.memory);
     k.features.topRows(hidden) = k.memory.h;
-    const auto text = TextEncoder<S>::text(k.text);
     for (Index n = 0; n < x.shape.columns(); ++n) {
       k.features.col(n).tail(config.text_size) =
           text.col(x.mission_of[static_cast<std::size_t>(n)]);
@@ -194,7 +194,8 @@ struct Agent {
   }
 
   /// From dlogits [7, N] and dvalues [1, N] (and, with the task module, cache.task.dlogits: what
-  /// the mask loss asks) to grads and dt; both accumulate (+=).
+  /// the mask loss asks) to grads and dt; both accumulate (+=). The missions are those that
+  /// encode_missions saw last in this cache.
   void backward(const Params& p, const Tables& t, const Frames<S>& x, const Missions& missions,
                 In<S> dlogits, In<S> dvalues, Cache& k, Params& grads, Tables& dt) const {
     const Index hidden = config.memory_size;

@@ -33,11 +33,12 @@ struct StepRecord {
   int action = 0;
   float value = 0, entropy = 0, reward = 0;
   bool terminated = false, truncated = false;
-  std::span<const float> logits;          ///< one per action
-  std::span<const float> word_weights;    ///< w, one per word of the mission; sums to 1
-  std::span<const float> word_mask;       ///< alpha in [0,1], one per word; ones without the module
-  std::span<const float> word_attention;  ///< A, 49 per word, row by row; each row sums to 1
-  std::span<const float> attention_map;   ///< M = sum_i alpha_i w_i A_i, 49; empty for the baseline
+  std::span<const float> logits{};        ///< one per action
+  std::span<const float> word_weights{};  ///< w, one per word of the mission; sums to 1
+  std::span<const float> word_mask{};     ///< alpha in [0,1], one per word; ones without the module
+  std::span<const float> word_attention{};  ///< A, 49 per word, row by row; each row sums to 1
+  std::span<const float>
+      attention_map{};  ///< M = sum_i alpha_i w_i A_i, 49; empty for the baseline
 };
 
 struct EpisodeEnd {

@@ -1,0 +1,38 @@
+#pragma once
+#include <cmath>
+#include <cstdint>
+
+#include "wordgaze/nn/parameters.hpp"
+
+namespace wordgaze::optim {
+
+/// Adam (Kingma and Ba, 2015) over a tree of parameters; equations (O1)-(O3) in docs/math.md.
+template <nn::Tree P>
+struct Adam {
+  P mean, variance;  ///< moments of the gradient
+  std::int64_t steps = 0;
+  double mean_decay = 0.9, variance_decay = 0.999, epsilon = 1e-5;
+
+  explicit Adam(const P& params) : mean(nn::zeros_like(params)), variance(nn::zeros_like(params)) {}
+
+  /// rate(path) is the learning rate of a leaf.
+  template <class Rate>
+  void step(P& params, const P& grads, Rate&& rate) {
+    ++steps;
+    const double t = static_cast<double>(steps);
+    const double mean_bias = 1 - std::pow(mean_decay, t);
+    const double variance_bias = 1 - std::pow(variance_decay, t);
+    nn::for_each_parameter(
+        [&](const nn::Path& path, auto& w, const auto& g, auto& m, auto& v) {
+          using S = typename std::remove_cvref_t<decltype(w)>::Scalar;
+          const auto size = static_cast<S>(rate(path) / mean_bias);
+          const auto root_bias = static_cast<S>(1 / std::sqrt(variance_bias));
+          m.array() += static_cast<S>(1 - mean_decay) * (g.array() - m.array());
+          v.array() += static_cast<S>(1 - variance_decay) * (g.array().square() - v.array());
+          w.array() -= size * m.array() / (v.array().sqrt() * root_bias + static_cast<S>(epsilon));
+        },
+        params, grads, mean, variance);
+  }
+};
+
+}  // namespace wordgaze::optim

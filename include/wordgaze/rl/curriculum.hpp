@@ -1,0 +1,58 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "wordgaze/env/environment.hpp"
+#include "wordgaze/rl/config.hpp"
+
+namespace wordgaze::rl {
+
+/// How an episode ended.
+struct Outcome {
+  babyai::Verb verb{};  ///< of the first clause
+  int clauses = 1;
+  bool helped = false;  ///< the curriculum had marked a clause as done
+  bool success = false, truncated = false;
+  int steps = 0;
+  double episode_return = 0;
+};
+
+/// Decides what training episodes ask for. Worlds come from the level; the curriculum changes
+/// verbs, cuts a mission down to a clause, or marks the first clause as done. It learns from
+/// outcomes between rollouts only, so that lanes can ask it at the same time.
+class Curriculum {
+ public:
+  explicit Curriculum(const CurriculumConfig& config);
+
+  /// Changes the episode that has just begun. True if it marked a clause as done.
+  bool prepare(env::Environment& environment, core::Rng& rng) const;
+
+  /// Learns from what ended since the last call; `frames` were seen in all.
+  void observe(const std::vector<Outcome>& outcomes, std::int64_t frames);
+
+  double go_to_share() const { return go_to_share_; }
+  bool pickup_only() const { return pickup_only_; }
+
+  /// Everything that prepare() depends on, for checkpoints.
+  std::vector<double> state() const;
+  void restore(const std::vector<double>& state);
+
+ private:
+  static constexpr std::size_t kWindow = 400;  ///< episodes a verb
+  /// The last outcomes of one verb.
+  struct Window {
+    std::array<std::uint8_t, kWindow> success{};
+    std::size_t next = 0, size = 0;
+    void add(bool s);
+    double rate() const;
+  };
+
+  CurriculumConfig config_;
+  bool pickup_only_;
+  double go_to_share_ = 0.5;
+  double half_done_ = 0;
+  Window go_to_, pickup_;
+};
+
+}  // namespace wordgaze::rl

@@ -1,0 +1,34 @@
+#pragma once
+#include <array>
+#include <vector>
+
+#include "wordgaze/rl/actor.hpp"
+#include "wordgaze/rl/observer.hpp"
+
+namespace wordgaze::rl {
+
+/// Turns the decisions of one lane of an actor into the records of an observer: codes back into
+/// maps over 49 cells. Holds the buffers that the records point to.
+class Recorder {
+ public:
+  explicit Recorder(Observer& observer) : observer_(&observer) {}
+
+  /// False if the observer does not want this episode; then nothing more is to be told of it.
+  bool begin(std::int64_t episode, int lane, std::uint64_t seed, const env::Environment& env);
+
+  /// Between decide() and the step: keeps what was seen and decided.
+  void decide(const Agent& agent, const Actor& actor, int lane, const env::Environment& env,
+              int action, float entropy);
+  /// After the step.
+  void step(const env::Transition& transition);
+  void end(const EpisodeEnd& end) { observer_->on_end(end); }
+
+ private:
+  Observer* observer_;
+  std::int64_t episode_ = 0;
+  std::array<std::uint8_t, grid::kImageBytes> image_{};
+  std::vector<float> logits_, weights_, mask_, attention_, gaze_;
+  StepRecord record_{.image = image_};
+};
+
+}  // namespace wordgaze::rl

@@ -1,0 +1,246 @@
+#include "wordgaze/io/checkpoint.hpp"
+
+#include <bit>
+
+#include "wordgaze/io/config_file.hpp"
+#include "wordgaze/io/safetensors.hpp"
+#include "wordgaze/rl/alphabet.hpp"
+
+namespace wordgaze::io {
+namespace {
+
+using Params = rl::Agent::Params;
+using Lane = rl::LaneGroup::LaneState;
+
+constexpr std::string_view kFormat = "1";
+
+[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what) {
+  throw std::runtime_error("checkpoint '" + path.string() + "': " + what);
+}
+
+/// Reads the file and makes sure that it is one of ours.
+TensorMap read(const std::filesystem::path& path) {
+  TensorMap map = read_safetensors(path);
+  const auto format = map.metadata.find("wordgaze.format");
+  if (format == map.metadata.end() || !map.metadata.contains("wordgaze.config")) {
+    fail(path,
+         "a safetensors file, but not a checkpoint of wordgaze train (its metadata has no "
+         "wordgaze.format)");
+  }
+  if (format->second != kFormat) {
+    fail(path, "format " + format->second + ", this program reads format " + std::string(kFormat));
+  }
+  return map;
+}
+
+rl::TrainConfig config_of(const TensorMap& map, const std::filesystem::path& path) {
+  try {
+    return parse_config<rl::TrainConfig>(map.text("wordgaze.config"), "wordgaze.config");
+  } catch (const std::exception& error) {
+    fail(path, error.what());
+  }
+}
+
+Params empty_params(const model::Config& config) {
+  return rl::Agent{config, model::CellAlphabet::one_room()}.make_params();
+}
+
+void put_params(TensorMap& map, const std::string& prefix, const Params& params) {
+  nn::for_each_parameter(
+      [&](const nn::Path& path, const auto& leaf) {
+        if (leaf.size() > 0) map.tensors.emplace(prefix + path.str(), tensor_of(leaf));
+      },
+      params);
+}
+
+Params get_params(const TensorMap& map, const std::string& prefix, const model::Config& config,
+                  const Params* fresh) {
+  Params params = fresh != nullptr ? *fresh : empty_params(config);
+  nn::for_each_parameter(
+      [&](const nn::Path& path, auto& leaf) {
+        const std::string name = prefix + path.str();
+        const bool optional = fresh != nullptr && path.names[0] == "task";
+        if (leaf.size() == 0 || (optional && !map.tensors.contains(name))) return;
+        copy_tensor(map, name, leaf);
+      },
+      params);
+  return params;
+}
+
+template <class T>
+Tensor list(std::vector<T> values) {
+  const auto size = static_cast<std::int64_t>(values.size());
+  return {{size}, std::move(values)};
+}
+
+/// The values of a one-dimensional tensor of any length.
+template <class T>
+const std::vector<T>& get_list(const TensorMap& map, std::string_view name) {
+  const Tensor& tensor = map.tensor(name);
+  const auto size = tensor.shape.size() == 1 ? tensor.shape[0] : -1;
+  return values_of<T>(map, name, {size});
+}
+
+constexpr std::size_t kRngWords = 6;
+
+void put_rng(std::vector<std::int64_t>& to, const core::Rng::State& s) {
+  for (const std::uint64_t word : {s.state_high, s.state_low, s.increment_high, s.increment_low,
+                                   std::uint64_t{s.half}, std::uint64_t{s.has_half}}) {
+    to.push_back(std::bit_cast<std::int64_t>(word));
+  }
+}
+
+core::Rng::State get_rng(const std::int64_t* from) {
+  const auto word = [&](int i) { return std::bit_cast<std::uint64_t>(from[i]); };
+  return {.state_high = word(0),
+          .state_low = word(1),
+          .increment_high = word(2),
+          .increment_low = word(3),
+          .half = static_cast<std::uint32_t>(word(4)),
+          .has_half = word(5) != 0};
+}
+
+void put_outcomes(TensorMap& map, const std::vector<rl::Outcome>& outcomes) {
+  std::vector<double> rows;
+  for (const auto& o : outcomes) {
+    rows.insert(rows.end(),
+                {static_cast<double>(o.verb), double(o.clauses), double(o.helped),
+                 double(o.success), double(o.truncated), double(o.steps), o.episode_return});
+  }
+  map.tensors.emplace("train.outcomes", Tensor{{std::int64_t(outcomes.size()), 7}, rows});
+}
+
+std::vector<rl::Outcome> get_outcomes(const TensorMap& map) {
+  const Tensor& tensor = map.tensor("train.outcomes");
+  const auto count = tensor.shape.empty() ? 0 : tensor.shape[0];
+  const auto& rows = values_of<double>(map, "train.outcomes", {count, 7});
+  std::vector<rl::Outcome> outcomes;
+  for (auto row = rows.begin(); row != rows.end(); row += 7) {
+    outcomes.push_back({.verb = static_cast<babyai::Verb>(row[0]),
+                        .clauses = static_cast<int>(row[1]),
+                        .helped = row[2] != 0,
+                        .success = row[3] != 0,
+                        .truncated = row[4] != 0,
+                        .steps = static_cast<int>(row[5]),
+                        .episode_return = row[6]});
+  }
+  return outcomes;
+}
+
+void put_lanes(TensorMap& map, const std::vector<Lane>& lanes, Index memory) {
+  std::vector<std::uint8_t> environments;
+  std::vector<std::int64_t> sizes, rngs, counters;
+  std::vector<double> returns;
+  Matrix<float> h(memory, static_cast<Index>(lanes.size())), c = h;
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const Lane& lane = lanes[i];
+    environments.insert(environments.end(), lane.environment.begin(), lane.environment.end());
+    sizes.push_back(static_cast<std::int64_t>(lane.environment.size()));
+    put_rng(rngs, lane.rng);
+    counters.insert(counters.end(), {lane.episode, lane.begins, lane.helped});
+    returns.push_back(lane.episode_return);
+    h.col(static_cast<Index>(i)) = lane.h;
+    c.col(static_cast<Index>(i)) = lane.c;
+  }
+  const auto n = static_cast<std::int64_t>(lanes.size());
+  map.tensors.emplace("lanes.environment", list(std::move(environments)));
+  map.tensors.emplace("lanes.environment_size", list(std::move(sizes)));
+  map.tensors.emplace("lanes.rng", Tensor{{n, std::int64_t{kRngWords}}, std::move(rngs)});
+  map.tensors.emplace("lanes.counters", Tensor{{n, 3}, std::move(counters)});
+  map.tensors.emplace("lanes.return", list(std::move(returns)));
+  map.tensors.emplace("lanes.h", tensor_of(h));
+  map.tensors.emplace("lanes.c", tensor_of(c));
+}
+
+std::vector<Lane> get_lanes(const TensorMap& map, const rl::TrainConfig& config) {
+  const std::int64_t n = config.ppo.lanes;
+  const auto& environments = get_list<std::uint8_t>(map, "lanes.environment");
+  const auto& sizes = values_of<std::int64_t>(map, "lanes.environment_size", {n});
+  const auto& rngs = values_of<std::int64_t>(map, "lanes.rng", {n, kRngWords});
+  const auto& counters = values_of<std::int64_t>(map, "lanes.counters", {n, 3});
+  const auto& returns = values_of<double>(map, "lanes.return", {n});
+  Matrix<float> h(config.model.memory_size, n), c = h;
+  copy_tensor(map, "lanes.h", h);
+  copy_tensor(map, "lanes.c", c);
+  std::vector<Lane> lanes(static_cast<std::size_t>(n));
+  std::size_t offset = 0;
+  for (std::size_t i = 0; i < lanes.size(); ++i) {
+    const auto size = static_cast<std::size_t>(sizes[i]);
+    if (size > environments.size() - offset) {
+      throw std::runtime_error("lanes.environment is shorter than lanes.environment_size says");
+    }
+    const auto* begin = environments.data() + offset;
+    offset += size;
+    lanes[i] = {.environment = {begin, begin + size},
+                .rng = get_rng(&rngs[i * kRngWords]),
+                .begins = counters[3 * i + 1] != 0,
+                .helped = counters[3 * i + 2] != 0,
+                .episode = counters[3 * i],
+                .episode_return = returns[i],
+                .h = h.col(static_cast<Index>(i)),
+                .c = c.col(static_cast<Index>(i))};
+  }
+  return lanes;
+}
+
+}  // namespace
+
+void save_checkpoint(const std::filesystem::path& path, const rl::TrainConfig& config,
+                     const rl::TrainerState& state) {
+  TensorMap map;
+  map.metadata["wordgaze.format"] = kFormat;
+  map.metadata["wordgaze.config"] = to_toml(config);
+  put_params(map, "", state.params);
+  put_params(map, "adam.mean.", state.adam_mean);
+  put_params(map, "adam.variance.", state.adam_variance);
+  map.tensors.emplace("train.counters", list(std::vector<std::int64_t>{state.updates, state.frames,
+                                                                       state.adam_steps}));
+  map.tensors.emplace("train.reals", list(std::vector<double>{state.seconds, state.hit_12}));
+  std::vector<std::int64_t> rng;
+  put_rng(rng, state.rng);
+  map.tensors.emplace("train.rng", list(std::move(rng)));
+  map.tensors.emplace("train.curriculum", list(state.curriculum));
+  put_outcomes(map, state.recent);
+  put_lanes(map, state.lanes, config.model.memory_size);
+  write_safetensors(path, map);
+}
+
+rl::TrainConfig load_config(const std::filesystem::path& path) {
+  return config_of(read(path), path);
+}
+
+rl::Agent::Params load_params(const std::filesystem::path& path, const model::Config& config,
+                              const rl::Agent::Params* fresh) {
+  const TensorMap map = read(path);
+  try {
+    return get_params(map, "", config, fresh);
+  } catch (const std::runtime_error& error) {
+    fail(path, std::string(error.what()) +
+                   "; the [model] sizes of the configuration and of the checkpoint must agree");
+  }
+}
+
+rl::TrainerState load_state(const std::filesystem::path& path, const rl::TrainConfig& config) {
+  const TensorMap map = read(path);
+  try {
+    const auto& counters = values_of<std::int64_t>(map, "train.counters", {3});
+    const auto& reals = values_of<double>(map, "train.reals", {2});
+    const auto& rng = values_of<std::int64_t>(map, "train.rng", {kRngWords});
+    return {.updates = counters[0],
+            .frames = counters[1],
+            .seconds = reals[0],
+            .params = get_params(map, "", config.model, nullptr),
+            .adam_mean = get_params(map, "adam.mean.", config.model, nullptr),
+            .adam_variance = get_params(map, "adam.variance.", config.model, nullptr),
+            .adam_steps = counters[2],
+            .rng = get_rng(rng.data()),
+            .curriculum = get_list<double>(map, "train.curriculum"),
+            .recent = get_outcomes(map),
+            .hit_12 = reals[1],
+            .lanes = get_lanes(map, config)};
+  } catch (const std::runtime_error& error) {
+    fail(path, error.what());
+  }
+}
+
+}  // namespace wordgaze::io

@@ -1,0 +1,91 @@
+#include "wordgaze/rl/curriculum.hpp"
+
+#include <algorithm>
+
+#include "wordgaze/optim/schedule.hpp"
+
+namespace wordgaze::rl {
+
+using babyai::Verb;
+
+void Curriculum::Window::add(bool s) {
+  success[next] = s;
+  next = (next + 1) % kWindow;
+  size = std::min(size + 1, kWindow);
+}
+
+double Curriculum::Window::rate() const {
+  if (size == 0) return 0;
+  return static_cast<double>(std::count(success.begin(), success.begin() + size, 1)) /
+         static_cast<double>(size);
+}
+
+Curriculum::Curriculum(const CurriculumConfig& config)
+    : config_(config), pickup_only_(config.pickup_first), half_done_(config.half_done_start) {}
+
+bool Curriculum::prepare(env::Environment& environment, core::Rng& rng) const {
+  babyai::Instruction wanted = environment.instruction();
+  if (config_.single_clause > 0 && wanted.clauses() > 1 && rng.uniform() < config_.single_clause) {
+    const auto pick = static_cast<std::size_t>(rng.below(wanted.clauses()));
+    wanted = babyai::single(wanted.clause[pick]);
+  }
+  if (pickup_only_ || config_.balance) {
+    const double share = pickup_only_ ? 0 : go_to_share_;
+    for (int i = 0; i < wanted.clauses(); ++i) {
+      Verb& verb = wanted.clause[static_cast<std::size_t>(i)].verb;
+      if (verb != Verb::go_to && verb != Verb::pickup) continue;
+      verb = rng.uniform() < share ? Verb::go_to : Verb::pickup;
+    }
+  }
+  if (wanted != environment.instruction()) environment.set_instruction(wanted);
+  if (half_done_ > 0 && wanted.clauses() > 1 && rng.uniform() < half_done_) {
+    const auto turn = environment.declarable();
+    // Where both clauses may be first, either is a fair start.
+    const auto both = std::count(turn.begin(), turn.end(), 1) > 1;
+    const auto first = std::find(turn.begin(), turn.end(), 1) - turn.begin();
+    environment.mark_completed(both ? rng.below(2) : static_cast<int>(first));
+    return true;
+  }
+  return false;
+}
+
+void Curriculum::observe(const std::vector<Outcome>& outcomes, std::int64_t frames) {
+  for (const auto& outcome : outcomes) {
+    if (outcome.verb == Verb::go_to) go_to_.add(outcome.success);
+    if (outcome.verb == Verb::pickup) pickup_.add(outcome.success);
+  }
+  const bool known = pickup_.size == kWindow;
+  if (pickup_only_ && known && pickup_.rate() >= config_.pickup_until) pickup_only_ = false;
+  if (config_.balance && !pickup_only_) {
+    const double g = go_to_.rate(), p = pickup_.rate();
+    go_to_share_ = std::clamp((1.02 - g) / (2.04 - g - p), 0.2, 0.8);
+  }
+  half_done_ = optim::linear(config_.half_done_start, config_.half_done_end,
+                             static_cast<double>(frames), config_.half_done_frames);
+}
+
+std::vector<double> Curriculum::state() const {
+  std::vector<double> s{pickup_only_ ? 1.0 : 0.0, go_to_share_, half_done_};
+  for (const Window* w : {&go_to_, &pickup_}) {
+    s.push_back(static_cast<double>(w->next));
+    s.push_back(static_cast<double>(w->size));
+    s.insert(s.end(), w->success.begin(), w->success.end());
+  }
+  return s;
+}
+
+void Curriculum::restore(const std::vector<double>& state) {
+  require(state.size() == 3 + 2 * (2 + kWindow), "Curriculum: a state has {} numbers, got {}",
+          3 + 2 * (2 + kWindow), state.size());
+  auto in = state.begin();
+  pickup_only_ = *in++ != 0;
+  go_to_share_ = *in++;
+  half_done_ = *in++;
+  for (Window* w : {&go_to_, &pickup_}) {
+    w->next = static_cast<std::size_t>(*in++) % kWindow;
+    w->size = std::min(static_cast<std::size_t>(*in++), kWindow);
+    for (auto& s : w->success) s = *in++ != 0;
+  }
+}
+
+}  // namespace wordgaze::rl
