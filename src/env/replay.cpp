@@ -83,7 +83,9 @@ class Replay {
   }
 
   // Every field of ours that they have as well.
-  void compare(const Json& ours, const Json& theirs) {
+  void compare(Json ours, const Json& theirs) {
+    if (theirs.contains("image_crc")) ours["image_crc"] = image_checksum(*env_);
+    if (theirs.contains("grid_crc")) ours["grid_crc"] = grid_checksum(*env_);
     for (const auto& [key, value] : ours.items()) {
       const auto other = theirs.find(key);
       if (other == theirs.end() || equal(key, value, *other)) continue;

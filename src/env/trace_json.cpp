@@ -47,10 +47,10 @@ std::vector<std::uint8_t> encoded_grid(const World& world) {
   return bytes;
 }
 
-std::string image(const Environment& env) {
+std::array<std::uint8_t, grid::kImageBytes> image(const Environment& env) {
   std::array<std::uint8_t, grid::kImageBytes> bytes;
   env.observe(bytes);
-  return hex(bytes);
+  return bytes;
 }
 
 // zlib's CRC-32.
@@ -155,6 +155,10 @@ Json instruction(const Environment& env) {
 
 }  // namespace
 
+std::uint32_t image_checksum(const Environment& env) { return crc32(image(env)); }
+
+std::uint32_t grid_checksum(const Environment& env) { return crc32(encoded_grid(env.world())); }
+
 Json reset_record(const Environment& env) {
   const World& world = env.world();
   return {{"t", "reset"},
@@ -167,7 +171,7 @@ Json reset_record(const Environment& env) {
           {"max_steps", env.max_steps()},
           {"grid", hex(encoded_grid(world))},
           {"carrying", object(world, world.carried)},
-          {"image", image(env)},
+          {"image", hex(image(env))},
           {"direction", env.direction()},
           {"contents", box_contents(world)},
           {"instr", instruction(env)},
@@ -181,14 +185,14 @@ Json step_record(const Environment& env, grid::Action action, const Transition& 
   const World& world = env.world();
   Json record{{"t", "step"},
               {"a", static_cast<int>(action)},
-              {"image", image(env)},
+              {"image", hex(image(env))},
               {"direction", env.direction()},
               {"r", transition.reward},
               {"term", transition.terminated},
               {"trunc", transition.truncated},
               {"agent_pos", position(world.agent)},
               {"carrying", object(world, world.carried)},
-              {"crc", crc32(encoded_grid(world))}};
+              {"crc", grid_checksum(env)}};
   if (env.id().starts_with("Wordgaze-")) record["c"] = env.completion();
   return record;
 }

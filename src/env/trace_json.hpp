@@ -15,4 +15,8 @@ Json reset_record(const Environment& env);
 /// The record of a step.
 Json step_record(const Environment& env, grid::Action action, const Transition& transition);
 
+/// CRC-32 of the view and of the whole grid: what compact traces hold in their place.
+std::uint32_t image_checksum(const Environment& env);
+std::uint32_t grid_checksum(const Environment& env);
+
 }  // namespace wordgaze::env
