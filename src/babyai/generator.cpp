@@ -10,7 +10,7 @@
 namespace wordgaze::babyai {
 namespace {
 
-constexpr int kMaxLayouts = 20'000;
+constexpr int kMaxLayouts = 500'000;
 
 // "Put A next to B" must have something left to do.
 bool can_be_put(const grid::World& world, grid::ObjectSet objects, grid::ObjectSet next_to) {

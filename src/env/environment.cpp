@@ -86,6 +86,8 @@ Transition Environment::step(Action action) {
 }
 
 void Environment::set_instruction(const babyai::Instruction& instruction) {
+  require(spec_->rule == babyai::Rule::instruction,
+          "set_instruction: '{}' is not a level of instructions", spec_->id);
   const babyai::Meaning meaning = look_up(world_, instruction);
   require(instruction.clauses() > 0, "set_instruction: the instruction has no clauses");
   for (int k = 0; k < instruction.clauses(); ++k) {
