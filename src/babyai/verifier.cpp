@@ -33,11 +33,8 @@ void Verifier::refresh(const World& world) {
 }
 
 Status Verifier::verify(const World& world, const Task& task, Action action) {
-  const auto before = completed_;
-  const Status status = mode_ == DoneMode::sequential ? verify_sequential(world, task, action)
-                                                      : verify_in_order(world, task, action);
-  if (completed_ != before) update_turns(task.instruction);
-  return status;
+  return mode_ == DoneMode::sequential ? verify_sequential(world, task, action)
+                                       : verify_in_order(world, task, action);
 }
 
 void Verifier::mark_completed(const Instruction& instruction, int clause) {
@@ -66,7 +63,7 @@ Status Verifier::verify_sequential(const World& world, const Task& task, Action 
   bool declared = false;
   for (int k = 0; k < clauses_; ++k) {
     if (!declarable_[k] || !matched_[k]) continue;
-    completed_[k] = 1;
+    mark_completed(task.instruction, k);
     declared = true;
   }
   if (!declared) return Status::failure;
@@ -96,14 +93,14 @@ Status Verifier::verify_in_order(const World& world, const Task& task, Action ac
 Status Verifier::verify_part(const World& world, const Task& task, Action action, Part part) {
   if (part.size() == 1) {
     const Status status = verify_clause(world, task, action, part.begin);
-    if (status == Status::success) completed_[part.begin] = 1;
+    if (status == Status::success) mark_completed(task.instruction, part.begin);
     return status;
   }
   int failures = 0;
   for (int k = part.begin; k < part.end; ++k) {
     if (completed_[k]) continue;
     const Status status = verify_clause(world, task, action, k);
-    if (status == Status::success) completed_[k] = 1;
+    if (status == Status::success) mark_completed(task.instruction, k);
     failures += status == Status::failure;
   }
   // A failure of one clause is ignored; so are failures of both, but for one case.

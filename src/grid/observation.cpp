@@ -1,5 +1,6 @@
 #include "wordgaze/grid/observation.hpp"
 
+#include <bit>
 #include <cstring>
 
 #include "wordgaze/grid/world.hpp"
@@ -7,90 +8,115 @@
 namespace wordgaze::grid {
 namespace {
 
+static_assert(std::endian::native == std::endian::little, "codes are copied as 32-bit words");
+
 constexpr int kCenter = kViewSize / 2;
 constexpr int kLast = kViewSize - 1;
 constexpr unsigned kRow = (1u << kViewSize) - 1;
 
-// The objects in the view, in the order of the image: [x][y], the agent at x = 3, y = 6.
-using View = std::array<ObjectId, kViewCells>;
+// One bit for each cell of the view: bit 8 x + y, so that a column of the image is a byte.
+using Bits = std::uint64_t;
+constexpr int bit_of(int x, int y) { return 8 * x + y; }
 
-View view_of(const World& world) {
-  // Steps in memory that go one cell ahead, and one to the right.
-  const std::ptrdiff_t stride = world.grid.stride();
-  const Position d = forward(world.direction);
-  const std::ptrdiff_t ahead = d.x + d.y * stride;
-  const std::ptrdiff_t aside = -d.y + d.x * stride;
-  const ObjectId* column = world.grid.pointer(world.agent) - kCenter * aside + kLast * ahead;
-  View view;
-  ObjectId* out = view.data();
-  for (int x = 0; x < kViewSize; ++x, column += aside) {
-    for (int y = 0; y < kViewSize; ++y) *out++ = column[-y * ahead];
-  }
-  return view;
+// Exchanges rows and columns of 8 x 8 bits, block by block.
+constexpr Bits transposed(Bits bits) {
+  Bits swap = (bits ^ bits >> 7) & 0x00AA00AA00AA00AA;
+  bits ^= swap ^ swap << 7;
+  swap = (bits ^ bits >> 14) & 0x0000CCCC0000CCCC;
+  bits ^= swap ^ swap << 14;
+  swap = (bits ^ bits >> 28) & 0x00000000F0F0F0F0;
+  return bits ^ swap ^ swap << 28;
 }
 
-// Everything that touches `lit` through neighbors in `clear`: within a row, sight spreads both
-// ways.
-unsigned spread(unsigned lit, unsigned clear) {
-  // Upward a carry runs through the ones of `clear` from each lit bit.
-  unsigned reached = lit | (clear & ~(clear + lit));
-  unsigned path = clear;
-  for (int step = 1; step < kViewSize; step *= 2) {
-    reached |= path & (reached >> step);
-    path &= path >> step;
-  }
-  return reached;
-}
-
-// The reference sweeps each row to the right and back, lighting the neighbor and the row beyond as
-// it goes. What comes of it: the clear cells connected to a lit one, and all that borders on them
-// in this row and the next.
-VisibleRows light(const View& view, ObjectSet blockers) {
-  std::array<unsigned, kViewSize> clear{};
-  for (int x = 0; x < kViewSize; ++x) {
-    for (int y = 0; y < kViewSize; ++y) {
-      clear[y] |= static_cast<unsigned>(~blockers >> view[x * kViewSize + y] & 1) << x;
+// What is lit from a row of cells, in that row and the next: the lit cells that are clear, the
+// clear cells connected to them, and all neighbors of these. By clear and lit cells.
+constexpr auto kSpread = [] {
+  std::array<std::array<std::uint8_t, kRow + 1>, kRow + 1> spread{};
+  for (unsigned clear = 0; clear <= kRow; ++clear) {
+    for (unsigned lit = 0; lit <= kRow; ++lit) {
+      unsigned reached = lit & clear;
+      for (int k = 1; k < kViewSize; ++k) reached |= (reached << 1 | reached >> 1) & clear;
+      spread[clear][lit] =
+          static_cast<std::uint8_t>((reached | reached << 1 | reached >> 1) & kRow);
     }
   }
-  VisibleRows visible{};
-  unsigned lit = 1u << kCenter;
-  for (int y = kLast; y >= 0; --y) {
-    const unsigned seen_through = spread(lit & clear[y], clear[y]);
-    const unsigned bordering = (seen_through | seen_through << 1 | seen_through >> 1) & kRow;
-    visible[y] = static_cast<std::uint8_t>(lit | bordering);
-    lit = bordering;
-  }
-  return visible;
-}
+  return spread;
+}();
 
-VisibleRows visible_in(const World& world, const View& view) {
-  if (!world.see_through_walls) return light(view, world.sight_blockers);
+// What the agent looks at, and which of it blocks its sight.
+struct View {
+  std::array<ObjectId, kViewCells> ids;  // in the order of the image: [x][y]
+  Bits blocked = 0;
+
+  explicit View(const World& world) {
+    // Steps in memory that go one cell ahead, and one to the right.
+    const std::ptrdiff_t stride = world.grid.stride();
+    const Position d = forward(world.direction);
+    const std::ptrdiff_t ahead = d.x + d.y * stride;
+    const std::ptrdiff_t aside = -d.y + d.x * stride;
+    const ObjectId* column = world.grid.pointer(world.agent) - kCenter * aside + kLast * ahead;
+    ObjectId* out = ids.data();
+    for (int x = 0; x < kViewSize; ++x, column += aside) {
+      for (int y = 0; y < kViewSize; ++y) {
+        const ObjectId id = column[-y * ahead];
+        *out++ = id;
+        blocked |= (world.sight_blockers >> id & 1) << bit_of(x, y);
+      }
+    }
+  }
+
+  // The reference sweeps each row to the right and back, lighting neighbors in this row and the
+  // next as it goes; kSpread is what comes of it.
+  VisibleRows visible_rows() const {
+    const Bits blocked_rows = transposed(blocked);
+    VisibleRows visible{};
+    unsigned lit = 1u << kCenter;
+    for (int y = kLast; y >= 0; --y) {
+      const unsigned clear = ~(blocked_rows >> 8 * y) & kRow;
+      const unsigned spread = kSpread[clear][lit];
+      visible[y] = static_cast<std::uint8_t>(lit | spread);
+      lit = spread;
+    }
+    return visible;
+  }
+
+  Bits visible() const {
+    Bits rows = 0;
+    const VisibleRows visible = visible_rows();
+    std::memcpy(&rows, visible.data(), sizeof visible);
+    return transposed(rows);
+  }
+};
+
+}  // namespace
+
+VisibleRows visible_cells(const World& world) {
+  if (!world.see_through_walls) return View(world).visible_rows();
   VisibleRows all;
   all.fill(kRow);
   return all;
 }
 
-}  // namespace
-
-VisibleRows visible_cells(const World& world) { return visible_in(world, view_of(world)); }
-
 void observe(const World& world, ImageView image) {
-  View view = view_of(world);
-  const VisibleRows visible = visible_in(world, view);
+  View view(world);
+  const Bits visible = world.see_through_walls ? ~Bits{0} : view.visible();
   // The agent sees what it carries in its own cell, whatever it stands on.
-  view[kCenter * kViewSize + kLast] = world.carried;
+  view.ids[kCenter * kViewSize + kLast] = world.carried;
   const Object* objects = world.objects.data();
-  std::uint8_t* out = image.data();
+  const ObjectId* id = view.ids.data();
+  std::array<std::uint8_t, kImageBytes + 1> codes;
+  std::uint8_t* out = codes.data();
   for (int x = 0; x < kViewSize; ++x) {
-    for (int y = 0; y < kViewSize; ++y, out += 3) {
-      const std::uint32_t mask = -(visible[y] >> x & 1u) & 0xffffff;
+    for (int y = 0; y < kViewSize; ++y, ++id, out += 3) {
+      const auto seen = -static_cast<std::uint32_t>(visible >> bit_of(x, y) & 1);
       std::uint32_t code;
-      std::memcpy(&code, &objects[view[x * kViewSize + y]], sizeof code);
-      code &= mask;
+      std::memcpy(&code, &objects[*id], sizeof code);
+      code &= seen;
       // Four bytes at a time: the next cell overwrites the fourth.
-      std::memcpy(out, &code, out + 3 == image.data() + kImageBytes ? 3 : 4);
+      std::memcpy(out, &code, sizeof code);
     }
   }
+  std::memcpy(image.data(), codes.data(), kImageBytes);
 }
 
 }  // namespace wordgaze::grid

@@ -187,35 +187,35 @@ bool RoomGrid::all_connected() const {
 }
 
 bool RoomGrid::all_reachable() const {
-  const Grid& grid = world.grid;
-  // Kept between calls so that resets do not allocate.
-  thread_local std::vector<bool> seen;
+  ObjectSet doors = 0, standing = 0;
+  for (std::size_t k = kWall + 1; k < world.objects.size(); ++k) {
+    const auto id = static_cast<ObjectId>(k);
+    if (world.object(id).type == Type::door) doors |= only(id);
+    if (world.stands(id)) standing |= only(id);
+  }
+
+  // Cells that were reached become walls in a copy. Kept between calls: resets do not allocate.
+  thread_local Grid left;
   thread_local std::vector<Position> reached;
-  seen.assign(static_cast<std::size_t>(grid.width() * grid.height()), false);
+  left = world.grid;
   reached.clear();
-  const auto seen_at = [&](Position p) {
-    return seen[static_cast<std::size_t>(p.y * grid.width() + p.x)];
-  };
+  ObjectSet found = 0;
   const auto reach = [&](Position p) {
-    if (seen_at(p)) return;
-    seen_at(p) = true;
-    const ObjectId id = grid[p];
-    if (id == kNothing || world.object(id).type == Type::door) reached.push_back(p);
+    found |= only(left[p]);
+    left[p] = kWall;
+    reached.push_back(p);
   };
   reach(world.agent);
-  while (!reached.empty()) {
+  while (!reached.empty() && (standing & ~found) != 0) {
     const Position p = reached.back();
     reached.pop_back();
     for (Position step : kForward) {
-      if (grid.contains(p + step)) reach(p + step);
+      const ObjectId id = left[p + step];
+      found |= only(id);
+      if (id == kNothing || (doors & only(id)) != 0) reach(p + step);
     }
   }
-  for (std::size_t id = kWall + 1; id < world.objects.size(); ++id) {
-    if (world.stands(static_cast<ObjectId>(id)) && !seen_at(world.objects[id].position)) {
-      return false;
-    }
-  }
-  return true;
+  return (standing & ~found) == 0;
 }
 
 }  // namespace wordgaze::grid
