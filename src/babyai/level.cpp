@@ -3,11 +3,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numeric>
 #include <regex>
 
 #include "generators.hpp"
 #include "level_table.hpp"
+#include "wordgaze/core/nearest.hpp"
 #include "wordgaze/core/require.hpp"
 
 namespace wordgaze::babyai {
@@ -37,21 +37,6 @@ std::optional<LevelSpec> wordgaze_level(const std::string& id) {
                    .objects = objects,
                    .unique = true,
                    .clauses = clauses};
-}
-
-// Levenshtein's distance: insertions, deletions and substitutions that make one of the other.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, substituted});
-    }
-  }
-  return row.back();
 }
 
 std::vector<std::string> nearest_ids(std::string_view id) {

@@ -9,9 +9,6 @@ using namespace generators;
 
 constexpr int square(int n) { return n * n; }
 
-// The shapes that LevelGen's levels are restricted to.
-const std::vector<Form> kOneClause{Form::clause};
-
 }  // namespace
 
 // What a row does not say is a maze of 3 x 3 rooms of 8 x 8 cells with BabyAI's own step limit.
@@ -75,7 +72,7 @@ std::span<const LevelSpec> level_table() {
       {.id = "BabyAI-Pickup-v0", .generate = pick_up, .objects = 18},
       {.id = "BabyAI-UnblockPickup-v0", .generate = unblock_and_pick_up, .objects = 20},
       {.id = "BabyAI-PickupLoc-v0", .generate = any_mission, .rows = 1, .columns = 1, .objects = 8,
-       .missions = {.locked_room = 0, .unblocking = false, .verbs = {Verb::pickup}, .forms = kOneClause}},
+       .missions = {.locked_room = 0, .unblocking = false, .verbs = {Verb::pickup}, .forms = {Form::clause}}},
       {.id = "BabyAI-PickupDist-v0", .generate = pick_up_among_distractors, .room_size = 7, .rows = 1, .columns = 1, .objects = 5},
       {.id = "BabyAI-PickupDistDebug-v0", .generate = pick_up_among_distractors, .room_size = 7, .rows = 1, .columns = 1, .objects = 5, .strict = true},
       {.id = "BabyAI-PickupAbove-v0", .generate = pick_up_above, .room_size = 6, .max_steps = 8 * square(6)},
@@ -124,11 +121,11 @@ std::span<const LevelSpec> level_table() {
 
       // any mission
       {.id = "BabyAI-Synth-v0", .generate = any_mission, .objects = 18,
-       .missions = {.locations = false, .implicit_unlock = false, .forms = kOneClause}},
+       .missions = {.locations = false, .implicit_unlock = false, .forms = {Form::clause}}},
       {.id = "BabyAI-SynthS5R2-v0", .generate = any_mission, .room_size = 5, .rows = 2, .objects = 18,
-       .missions = {.locations = false, .implicit_unlock = false, .forms = kOneClause}},
+       .missions = {.locations = false, .implicit_unlock = false, .forms = {Form::clause}}},
       {.id = "BabyAI-SynthLoc-v0", .generate = any_mission, .objects = 18,
-       .missions = {.implicit_unlock = false, .forms = kOneClause}},
+       .missions = {.implicit_unlock = false, .forms = {Form::clause}}},
       {.id = "BabyAI-SynthSeq-v0", .generate = any_mission, .objects = 18, .missions = {.implicit_unlock = false}},
       {.id = "BabyAI-MiniBossLevel-v0", .generate = any_mission, .room_size = 5, .rows = 2, .columns = 2, .objects = 7,
        .missions = {.locked_room = 0.25}},

@@ -1,0 +1,143 @@
+#include "wordgaze/babyai/parser.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <initializer_list>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace wordgaze::babyai {
+namespace {
+
+// Recursive descent; each function reads one rule of the grammar.
+class Parser {
+ public:
+  explicit Parser(std::string_view text) : text_(text) { advance(); }
+
+  Instruction mission() {
+    const Instruction first = part();
+    Order order = Order::any;
+    if (accept(",")) {
+      expect("then");
+      order = Order::before;
+    } else if (accept("after")) {
+      expect("you");
+      order = Order::after;
+    }
+    const Instruction whole = order == Order::any ? first : ordered(first, order, part());
+    if (!word_.empty()) fail({"the end"});
+    return whole;
+  }
+
+ private:
+  Instruction part() {
+    const Clause first = clause();
+    return accept("and") ? both(first, clause()) : single(first);
+  }
+
+  Clause clause() {
+    Clause clause;
+    if (accept("go")) {
+      expect("to");
+      clause.verb = Verb::go_to;
+    } else if (accept("pick")) {
+      expect("up");
+      clause.verb = Verb::pickup;
+    } else if (accept("open")) {
+      clause.verb = Verb::open;
+    } else if (accept("put")) {
+      clause.verb = Verb::put_next;
+    } else {
+      fail({"go to", "pick up", "open", "put"});
+    }
+    clause.object = description();
+    if (clause.verb == Verb::put_next) {
+      expect("next");
+      expect("to");
+      clause.next_to = description();
+    }
+    return clause;
+  }
+
+  Description description() {
+    if (!accept("the") && !accept("a")) fail({"the", "a"});
+    Description d;
+    d.color = color();
+    d.type = type(d.color.has_value());
+    d.location = location();
+    return d;
+  }
+
+  std::optional<grid::Color> color() {
+    for (grid::Color color : grid::kColorsToDraw) {
+      if (accept(name(color))) return color;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<grid::Type> type(bool has_color) {
+    using grid::Type;
+    if (accept("object")) return std::nullopt;
+    for (Type type : {Type::ball, Type::box, Type::key, Type::door}) {
+      if (accept(name(type))) return type;
+    }
+    if (has_color) fail({"ball", "box", "key", "door", "object"});
+    fail({"a color", "ball", "box", "key", "door", "object"});
+  }
+
+  Location location() {
+    if (accept("in")) {
+      expect("front");
+      expect("of");
+      expect("you");
+      return Location::front;
+    }
+    if (accept("behind")) {
+      expect("you");
+      return Location::behind;
+    }
+    if (accept("on")) {
+      expect("your");
+      if (accept("left")) return Location::left;
+      if (accept("right")) return Location::right;
+      fail({"left", "right"});
+    }
+    return Location::anywhere;
+  }
+
+  bool accept(std::string_view word) {
+    if (word_ != word) return false;
+    advance();
+    return true;
+  }
+  void expect(std::string_view word) {
+    if (!accept(word)) fail({word});
+  }
+
+  // To the next word; a comma is one. Empty at the end.
+  void advance() {
+    const std::size_t begin = std::min(text_.find_first_not_of(' ', end_), text_.size());
+    end_ = text_.substr(begin, 1) == "," ? begin + 1
+                                         : std::min(text_.find_first_of(" ,", begin), text_.size());
+    word_ = text_.substr(begin, end_ - begin);
+  }
+
+  [[noreturn]] void fail(std::initializer_list<std::string_view> expected) const {
+    const std::size_t column = end_ - word_.size();
+    throw std::invalid_argument(fmt::format(
+        "mission: expected {}, found {}\n  {}\n  {:>{}}", fmt::join(expected, " | "),
+        word_.empty() ? "the end" : fmt::format("'{}'", word_), text_, '^', column + 1));
+  }
+
+  std::string_view text_;
+  std::size_t end_ = 0;  // behind word_
+  std::string_view word_;
+};
+
+}  // namespace
+
+Instruction parse_mission(std::string_view text) { return Parser(text).mission(); }
+
+}  // namespace wordgaze::babyai
