@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+"""Writes test/data/model/*.json for test/model/reference_test.cpp: the agent once more, in PyTorch.
+
+It follows docs/math.md, not the C++: cells are one-hot images under a convolution, each word has a map
+of all 49 cells, PyTorch has its own LSTM and GRU, and the gradients are its autograd's. Nothing is
+shared between equal cells, equal words or equal missions. Needs Debian's python3-torch.
+"""
+import json
+import math
+import pathlib
+import random
+import sys
+
+import torch
+import torch.nn.functional as F
+
+SEED = 20260102
+TYPES, COLORS, STATES, VIEW, ACTIONS, VOCABULARY = 11, 6, 3, 7, 7, 55
+SIZES = {"channels": 3, "word_size": 4, "key_size": 3, "memory_size": 3, "text_size": 3,
+         "head_size": 4, "task_size": 5, "task_words": 13, "clauses": 2}
+VARIANTS = {
+    "baseline": {"attention": False},
+    "attention_p1": {"attention": True, "gaze_exponent": 1, "entropy_base": math.e},
+    "attention_p2": {"attention": True, "gaze_exponent": 2, "entropy_base": 49},
+    "task_attention": {"attention": True, "task_attention": True, "gaze_exponent": 2,
+                       "entropy_base": 49},
+}
+# Ids of the vocabulary: "go to the red ball", "pick up the blue key, then go to the grey box".
+MISSIONS = [[18, 47, 45, 40, 7], [36, 50, 45, 9, 24, 1, 46, 18, 47, 45, 21, 10]]
+STEPS, LANES = 3, 2
+
+
+def gaussian(choice, *shape, scale=0.6):
+    """Three decimals: short in the file, the same double on both sides."""
+    if not shape:
+        return round(choice.gauss(0, scale), 3)
+    return [gaussian(choice, *shape[1:], scale=scale) for _ in range(shape[0])]
+
+
+def random_parameters(choice, config):
+    c, e, d, h = (config[k] for k in ("channels", "word_size", "key_size", "memory_size"))
+    g, hidden, task = config["text_size"], config["head_size"], config["task_size"]
+    shapes = {"visual.weight": (c, TYPES + COLORS + STATES), "visual.bias": (c,),
+              "words": (e, VOCABULARY)}
+    if config["attention"]:
+        shapes |= {"attention.query": (d, e), "attention.key": (d, c)}
+    shapes |= {"memory.input_weight": (4 * h, VIEW * VIEW * c), "memory.hidden_weight": (4 * h, h),
+               "memory.bias": (4 * h,), "text.input_weight": (3 * g, e),
+               "text.hidden_weight": (3 * g, g), "text.bias": (3 * g,), "text.candidate_bias": (g,)}
+    if config["task_attention"]:
+        shapes |= {"task.hidden.weight": (task, e + config["clauses"]), "task.hidden.bias": (task,),
+                   "task.output.weight": (config["task_words"], task),
+                   "task.output.bias": (config["task_words"],)}
+    for head, outputs in (("actor", ACTIONS), ("critic", 1)):
+        shapes |= {f"{head}.hidden.weight": (hidden, h + g), f"{head}.hidden.bias": (hidden,),
+                   f"{head}.output.weight": (outputs, hidden), f"{head}.output.bias": (outputs,)}
+    parameters = {name: gaussian(choice, *shape) for name, shape in shapes.items()}
+    # Encodings away from zero, or the ReLU would leave little to see.
+    parameters["visual.bias"] = [round(b + 0.7, 3) for b in parameters["visual.bias"]]
+    return parameters
+
+
+def random_frame(choice, config, step, lane):
+    """One observation: mostly empty cells, walls and unseen ones, as in a room."""
+    common = [(1, 0, 0), (2, 5, 0), (0, 0, 0)]
+    image = [choice.choice(common) if choice.random() < 0.8 else
+             (choice.randrange(5, 8), choice.randrange(COLORS), 0) for _ in range(VIEW * VIEW)]
+    return {"image": image, "mission": (step + lane) % len(MISSIONS),
+            "keep": 0 if (step, lane) == (1, 1) else 1,
+            "completion": [choice.randrange(2) for _ in range(config["clauses"])]}
+
+
+def one_hot(image):
+    """[1, 20, 7, 7]"""
+    hot = torch.zeros(TYPES + COLORS + STATES, VIEW * VIEW)
+    for cell, (kind, color, state) in enumerate(image):
+        hot[kind, cell] = hot[TYPES + color, cell] = hot[TYPES + COLORS + state, cell] = 1
+    return hot.view(1, -1, VIEW, VIEW)
+
+
+def encode_text(p, mission):
+    h = torch.zeros(1, SIZES["text_size"])
+    bias = torch.cat([torch.zeros(2 * SIZES["text_size"]), p["text.candidate_bias"]])
+    for word in F.embedding(torch.tensor(mission), p["words"].T):
+        h = torch.gru_cell(word[None], h, p["text.input_weight"], p["text.hidden_weight"],
+                           p["text.bias"], bias)
+    return h[0]
+
+
+def filter_view(p, config, view, mission, completion):
+    """The filtered view F [C, 49], and what made it; view is O~ [C, 49]."""
+    if not config["attention"]:
+        return view, {}
+    words = F.embedding(torch.tensor(mission), p["words"].T)
+    queries = F.linear(words, p["attention.query"])
+    keys = F.linear(view.T, p["attention.key"])
+    maps = torch.softmax(queries @ keys.T / math.sqrt(config["key_size"]), dim=1)
+    entropy = -(maps * maps.log()).sum(1) / math.log(config["entropy_base"])
+    weights = torch.softmax(-entropy, dim=0)
+    seen = {"maps": maps, "entropy": entropy, "weights": weights}
+    if config["task_attention"]:
+        x = torch.cat([weights @ words, torch.tensor(completion, dtype=torch.float64)])
+        x = F.linear(x, p["task.hidden.weight"], p["task.hidden.bias"]).relu()
+        seen["mask_logits"] = F.linear(x, p["task.output.weight"], p["task.output.bias"])
+        seen["alpha"] = seen["mask_logits"].sigmoid()[:len(mission)]
+        weights = seen["alpha"] * weights
+    gaze = weights @ maps
+    scale = (gaze / (gaze.max() + 1e-6)) ** config["gaze_exponent"]
+    return view * scale, seen | {"gaze": gaze, "scale": scale}
+
+
+def head(p, name, x):
+    x = F.linear(x, p[f"{name}.hidden.weight"], p[f"{name}.hidden.bias"]).tanh()
+    return F.linear(x, p[f"{name}.output.weight"], p[f"{name}.output.bias"])
+
+
+def run_lane(p, config, frames, h, c):
+    """Frames of one lane in turn, from the memory (h, c)."""
+    for frame in frames:
+        h, c = h * frame["keep"], c * frame["keep"]
+        mission = MISSIONS[frame["mission"]]
+        view = F.conv2d(one_hot(frame["image"]), p["visual.weight"][:, :, None, None],
+                        p["visual.bias"]).relu().flatten(2)[0]
+        filtered, seen = filter_view(p, config, view, mission, frame["completion"])
+        h, c = (s[0] for s in torch.lstm_cell(
+            filtered.T.reshape(1, -1), (h[None], c[None]), p["memory.input_weight"],
+            p["memory.hidden_weight"], p["memory.bias"], torch.zeros_like(p["memory.bias"])))
+        features = torch.cat([h, encode_text(p, mission)])
+        yield {"logits": head(p, "actor", features), "value": head(p, "critic", features)[0],
+               "h": h, "c": c} | seen
+
+
+def numbers(value):
+    """Nested lists with 13 digits."""
+    if isinstance(value, torch.Tensor):
+        value = value.tolist()
+    if isinstance(value, list):
+        return [numbers(v) for v in value]
+    return float("%.13g" % value)
+
+
+def make(name, variant):
+    config = SIZES | {"task_attention": False, "gaze_exponent": 2, "entropy_base": 49} | variant
+    choice = random.Random(f"{SEED} {name}")
+    given = random_parameters(choice, config)
+    frames = [random_frame(choice, config, t, b) for t in range(STEPS) for b in range(LANES)]
+    start = {k: gaussian(choice, LANES, config["memory_size"]) for k in ("h", "c")}
+    asked = {"logits": gaussian(choice, len(frames), ACTIONS), "value": gaussian(choice, len(frames))}
+    if config["task_attention"]:
+        asked["mask_logits"] = gaussian(choice, len(frames), config["task_words"])
+
+    p = {key: torch.tensor(value, requires_grad=True) for key, value in given.items()}
+    results = [None] * len(frames)  # time-major, like the frames
+    for b in range(LANES):
+        h, c = (torch.tensor(start[k][b]) for k in ("h", "c"))
+        results[b::LANES] = run_lane(p, config, frames[b::LANES], h, c)
+    loss = sum((torch.stack([r[key] for r in results]) * torch.tensor(weight)).sum()
+               for key, weight in asked.items())
+    loss.backward()
+    for r in results:
+        r.pop("mask_logits", None)
+    return {"torch": torch.__version__, "python": sys.version.split()[0], "seed": SEED,
+            "config": config, "steps": STEPS, "lanes": LANES, "missions": MISSIONS,
+            "parameters": given, "frames": frames, "start": start, "asked": asked,
+            "loss": numbers(loss.item()),
+            "results": [{k: numbers(v) for k, v in r.items()} for r in results],
+            "gradients": {key: numbers(leaf.grad) for key, leaf in p.items()}}
+
+
+def main():
+    torch.set_default_dtype(torch.float64)
+    folder = pathlib.Path(sys.argv[1])
+    for name, variant in VARIANTS.items():
+        entries = ",\n".join(f"{json.dumps(key)}:{json.dumps(value, separators=(',', ':'))}"
+                             for key, value in make(name, variant).items())
+        (folder / f"{name}.json").write_text("{" + entries + "}\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,171 @@
+#include <gtest/gtest.h>
+
+#include "support/golden.hpp"
+#include "wordgaze/model/agent.hpp"
+
+/// The agent against PyTorch, which computes it with dense cells and differentiates it by itself
+/// (scripts/golden/agent.py).
+namespace wordgaze::model {
+namespace {
+
+using test::Json;
+using test::relative_error;
+
+constexpr double kTolerance = 1e-9;
+
+Config config_of(const Json& j) {
+  Config c;
+  c.attention = j.at("attention");
+  c.task_attention = j.at("task_attention");
+  c.channels = j.at("channels");
+  c.word_size = j.at("word_size");
+  c.key_size = j.at("key_size");
+  c.memory_size = j.at("memory_size");
+  c.text_size = j.at("text_size");
+  c.head_size = j.at("head_size");
+  c.task_size = j.at("task_size");
+  c.task_words = j.at("task_words");
+  c.clauses = j.at("clauses");
+  c.entropy_base = j.at("entropy_base");
+  c.gaze_exponent = j.at("gaze_exponent");
+  return c;
+}
+
+/// The agent of a golden file, with its inputs and its weights.
+struct Reference {
+  Json json;
+  Agent<double> agent;
+  Agent<double>::Params params;
+  Agent<double>::Tables tables;
+  Agent<double>::Cache cache;
+  Frames<double> frames;
+  Missions missions;
+
+  explicit Reference(const std::string& name)
+      : json(test::golden("model/" + name + ".json")),
+        agent{config_of(json.at("config")), CellAlphabet::one_room()},
+        params(agent.make_params()),
+        tables(agent.make_tables()) {
+    nn::for_each_parameter(
+        [&](const nn::Path& path, auto& leaf) {
+          if (leaf.size() == 0) return;
+          leaf = test::matrix(json.at("parameters").at(path.str()), leaf.rows(), leaf.cols());
+        },
+        params);
+    for (const auto& words : json.at("missions")) {
+      babyai::Sentence sentence;
+      for (const int word : words) sentence.append(static_cast<babyai::WordId>(word), 0);
+      missions.index_of(sentence);
+    }
+    frames.resize(agent.config, {json.at("steps"), json.at("lanes")});
+    for (Index n = 0; n < frames.shape.columns(); ++n) read_frame(n);
+    for (Index b = 0; b < frames.shape.batch; ++b) {
+      const auto lane = static_cast<std::size_t>(b);
+      frames.start.h.col(b) = test::column(json.at("start").at("h").at(lane));
+      frames.start.c.col(b) = test::column(json.at("start").at("c").at(lane));
+    }
+    agent.update_all_tables(params, tables);
+    agent.forward(params, tables, frames, missions,
+                  agent.encode_missions(params, tables, missions, cache), cache);
+  }
+
+  void read_frame(Index n) {
+    const Json& frame = json.at("frames").at(static_cast<std::size_t>(n));
+    std::array<std::uint8_t, grid::kImageBytes> image;
+    auto byte = image.begin();
+    for (const auto& cell : frame.at("image")) byte = std::copy(cell.begin(), cell.end(), byte);
+    agent.alphabet.encode(image, std::span<std::uint8_t, grid::kViewCells>(
+                                     frames.cells.col(n).data(), grid::kViewCells));
+    frames.mission_of[static_cast<std::size_t>(n)] = frame.at("mission");
+    frames.keep(0, n) = frame.at("keep");
+    frames.completion.col(n) = test::column(frame.at("completion"));
+  }
+
+  const Json& result(Index n) const { return json.at("results").at(static_cast<std::size_t>(n)); }
+
+  /// What the loss asks of an output: one column a frame.
+  Matrix<double> asked(const char* output) const {
+    const Json& list = json.at("asked").at(output);
+    const Index size = list.at(0).is_number() ? 1 : static_cast<Index>(list.at(0).size());
+    const auto count = static_cast<Index>(list.size());
+    return test::matrix(list, count, size).transpose();
+  }
+
+  /// One number a code as one a cell of frame n.
+  Vector<double> over_cells(Index n, const Matrix<double>& by_code, Index column) const {
+    Vector<double> map(grid::kViewCells);
+    for (Index c = 0; c < grid::kViewCells; ++c) map(c) = by_code(frames.cells(c, n), column);
+    return map;
+  }
+};
+
+struct ReferenceAgent : testing::TestWithParam<const char*> {
+  Reference f{GetParam()};
+
+  Index count() const { return f.frames.shape.columns(); }
+};
+
+TEST_P(ReferenceAgent, AgreesOnLogitsValuesAndMemory) {
+  for (Index n = 0; n < count(); ++n) {
+    const Json& theirs = f.result(n);
+    EXPECT_LE(relative_error(f.cache.logits().col(n), test::column(theirs.at("logits"))),
+              kTolerance);
+    EXPECT_NEAR(f.cache.values()(0, n), theirs.at("value"), kTolerance);
+    EXPECT_LE(relative_error(f.cache.memory.h.col(n), test::column(theirs.at("h"))), kTolerance);
+    EXPECT_LE(relative_error(f.cache.memory.cell.col(n), test::column(theirs.at("c"))), kTolerance);
+  }
+}
+
+TEST_P(ReferenceAgent, AgreesOnWhereItLooks) {
+  if (!f.agent.config.attention) return;
+  const auto& ours = f.cache.attention;
+  for (Index n = 0; n < count(); ++n) {
+    const Json& theirs = f.result(n);
+    const auto words = static_cast<Index>(theirs.at("maps").size());
+    for (Index i = 0; i < words; ++i) {
+      EXPECT_LE(relative_error(f.over_cells(n, ours.maps, ours.map(n, i)),
+                               test::column(theirs.at("maps").at(static_cast<std::size_t>(i)))),
+                kTolerance);
+    }
+    const auto agrees = [&](const char* name, const Matrix<double>& columns) {
+      EXPECT_LE(relative_error(columns.col(n).head(words), test::column(theirs.at(name))),
+                kTolerance)
+          << name << " of frame " << n;
+    };
+    agrees("entropy", ours.entropy);
+    agrees("weights", ours.weights);
+    if (f.agent.config.task_attention) agrees("alpha", f.cache.alpha);
+    EXPECT_LE(relative_error(f.over_cells(n, ours.gaze, n), test::column(theirs.at("gaze"))),
+              kTolerance);
+    EXPECT_LE(relative_error(f.over_cells(n, ours.scale, n), test::column(theirs.at("scale"))),
+              kTolerance);
+  }
+}
+
+TEST_P(ReferenceAgent, AgreesOnTheGradientOfEveryParameter) {
+  auto grads = nn::zeros_like(f.params);
+  auto dtables = f.agent.make_tables();
+  if (f.agent.config.task_attention) f.cache.task.dlogits = f.asked("mask_logits");
+  f.agent.backward(f.params, f.tables, f.frames, f.missions, f.asked("logits"), f.asked("value"),
+                   f.cache, grads, dtables);
+  f.agent.all_tables_backward(f.params, f.tables, dtables, grads);
+  int leaves = 0;
+  nn::for_each_parameter(
+      [&](const nn::Path& path, const auto& ours) {
+        if (ours.size() == 0) return;
+        ++leaves;
+        const Json& theirs = f.json.at("gradients").at(path.str());
+        EXPECT_LE(relative_error(ours, test::matrix(theirs, ours.rows(), ours.cols())), kTolerance)
+            << path.str();
+      },
+      grads);
+  EXPECT_EQ(leaves, static_cast<int>(f.json.at("gradients").size()));
+}
+
+INSTANTIATE_TEST_SUITE_P(PyTorch, ReferenceAgent,
+                         testing::Values("baseline", "attention_p1", "attention_p2",
+                                         "task_attention"),
+                         [](const auto& variant) { return std::string(variant.param); });
+
+}  // namespace
+}  // namespace wordgaze::model
