@@ -24,7 +24,7 @@ struct GruTest : testing::Test {
   void SetUp() override {
     G::resize(params, kIn, kHidden);
     test::randomize_parameters(params);
-    cache.resize(kHidden, shape);
+    cache.reserve(kHidden, shape.columns());
     for (Index b = 0; b < shape.batch; ++b) {
       for (Index t = 0; t < length[static_cast<std::size_t>(b)]; ++t) {
         active(0, shape.column(t, b)) = 1;

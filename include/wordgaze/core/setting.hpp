@@ -3,8 +3,8 @@
 #include <string_view>
 #include <tuple>
 
-/// Configuration as open data: an aggregate lists its settings once, in `settings()`; the reader, the
-/// writer, `--set key=value` and the documentation all walk that list.
+/// Configuration as open data: an aggregate lists its settings once, in `settings()`; the reader,
+/// the writer, `--set key=value` and the documentation all walk that list.
 ///
 ///     struct Limits {
 ///       int steps = 20;
@@ -22,7 +22,7 @@ struct Setting {
   std::string_view name;
   Member Owner::*member;
   std::string_view description;
-  double lowest = -std::numeric_limits<double>::infinity();   ///< inclusive, numbers only
+  double lowest = -std::numeric_limits<double>::infinity();  ///< inclusive, numbers only
   double highest = std::numeric_limits<double>::infinity();  ///< inclusive, numbers only
 };
 template <class O, class M>
@@ -31,12 +31,16 @@ template <class O, class M, class L, class H>
 Setting(const char*, M O::*, const char*, L, H) -> Setting<O, M>;
 
 template <class T>
-concept Section = requires { T::settings(); };
+concept Section = requires {
+  T::settings();
+};
 
 /// An enum is a setting when argument-dependent lookup finds
 /// `constexpr std::array<std::string_view, N> names(E)`: the name of value k at index k.
 template <class E>
-concept NamedEnum = std::is_enum_v<E> && requires(E e) { names(e).size(); };
+concept NamedEnum = std::is_enum_v<E> && requires(E e) {
+  names(e).size();
+};
 
 template <NamedEnum E>
 constexpr std::string_view name_of(E value) {

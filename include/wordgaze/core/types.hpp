@@ -1,7 +1,8 @@
 #pragma once
 #include <Eigen/Core>
 
-/// Names that every module shares. A sample is a column; features run down it (docs/architecture.md).
+/// Names that every module shares. A sample is a column; features run down it
+/// (docs/architecture.md).
 namespace wordgaze {
 
 using Index = Eigen::Index;

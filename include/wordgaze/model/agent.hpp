@@ -160,7 +160,7 @@ struct Agent {
     t.words.setZero();
   }
 
-  /// The text features [G, M or more] of all missions: a block of the cache.
+  /// The text features [G, M] of all missions: a block of the cache.
   auto encode_missions(const Params& p, const Tables& t, const Missions& missions, Cache& k) const {
     TextEncoder<S>::forward(p.text, t.text, missions, k.text);
     return TextEncoder<S>::text(k.text);
@@ -177,7 +177,8 @@ struct Agent {
       if (config.task_attention) {
         weigh_words(p, missions, x, k);
         TaskAttention<S>::forward(p.task, k.task);
-        k.alpha = k.task.alpha.topRows(k.alpha.rows());
+        const Index words = std::min(k.alpha.rows(), k.task.alpha.rows());
+        k.alpha.topRows(words) = k.task.alpha.topRows(words);
       }
       Attention::forward_gaze(missions, x.mission_of, k.alpha, static_cast<S>(config.gaze_exponent),
                               k.attention);
@@ -230,7 +231,8 @@ struct Agent {
 
   /// Sizes the cache for these frames; does nothing from the second call on.
   void fit(nn::SequenceShape shape, Index longest, Cache& k) const {
-    const Index words = std::max<Index>(longest, k.alpha.rows());
+    // Whole packets a column, so that what is rounded how does not depend on earlier batches.
+    const Index words = std::max<Index>((longest + 15) / 16 * 16, k.alpha.rows());
     if (shape == k.shape && words == k.alpha.rows()) return;
     require(!config.task_attention || longest <= config.task_words,
             "agent: a mission has {} words, the Task Attention Module takes {}; raise "

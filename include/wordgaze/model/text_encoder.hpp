@@ -15,9 +15,9 @@ struct TextEncoder {
 
   struct Cache {
     typename nn::Gru<S>::Cache gru;
-    Matrix<S> active;  // [1, T*M]
-    Matrix<S> dtext;   // [G, M]
-    nn::SequenceShape shape;
+    Matrix<S> active;         // [1, T*M]
+    Matrix<S> dtext;          // [G, M]
+    nn::SequenceShape shape;  // of the batch; the matrices may be larger
   };
 
   static void make_table(const Params& p, In<S> words, Out<S> table) {
@@ -31,34 +31,30 @@ struct TextEncoder {
   }
 
   static void forward(const Params& p, In<S> table, const Missions& missions, Cache& k) {
-    // The cache only grows: batches of fewer or shorter missions leave columns that nothing keeps.
-    const nn::SequenceShape shape{std::max<Index>(k.shape.steps, missions.longest),
-                                  std::max<Index>(k.shape.batch, missions.size())};
-    if (shape != k.shape) {
-      k.shape = shape;
-      k.gru.resize(p.hidden_weight.cols(), shape);
-      k.active.resize(1, shape.columns());
-      k.dtext.resize(p.hidden_weight.cols(), shape.batch);
-    }
-    k.active.setZero();
-    k.gru.gates.setZero();
+    k.shape = {missions.longest, missions.size()};
+    const Index hidden = p.hidden_weight.cols(), columns = k.shape.columns();
+    k.gru.reserve(hidden, columns);
+    if (k.active.cols() < columns) k.active.resize(1, columns);
+    if (k.dtext.cols() < k.shape.batch) k.dtext.resize(hidden, k.shape.batch);
+    k.active.leftCols(columns).setZero();
+    k.gru.gates.leftCols(columns).setZero();
     for (int m = 0; m < missions.size(); ++m) {
       const auto& sentence = missions[m];
       for (int i = 0; i < sentence.length; ++i) {
-        const Index column = shape.column(i, m);
+        const Index column = k.shape.column(i, m);
         k.active(0, column) = S(1);
         k.gru.gates.col(column) = table.col(sentence.words[static_cast<std::size_t>(i)]);
       }
     }
-    nn::Gru<S>::forward(p, shape, k.active, k.gru);
+    nn::Gru<S>::forward(p, k.shape, k.active, k.gru);
   }
-  /// [G, M or more]
+  /// [G, M]
   static auto text(const Cache& k) { return k.shape.block(k.gru.h, k.shape.steps - 1); }
 
-  /// On entry cache.dtext [G, M or more] is the gradient of text().
+  /// On entry cache.dtext [G, M], perhaps wider, is the gradient of text().
   static void backward(const Params& p, const Missions& missions, Cache& k, Params& grads,
                        Out<S> dtable) {
-    nn::Gru<S>::backward(p, k.shape, k.active, k.dtext, k.gru, grads);
+    nn::Gru<S>::backward(p, k.shape, k.active, k.dtext.leftCols(k.shape.batch), k.gru, grads);
     for (int m = 0; m < missions.size(); ++m) {
       const auto& sentence = missions[m];
       for (int i = 0; i < sentence.length; ++i) {

@@ -12,7 +12,8 @@ namespace wordgaze::nn {
 /// The product of input and input weight is the caller's (words repeat: it is a table over the
 /// vocabulary), so it arrives in `cache.gates` already multiplied.
 ///
-/// shapes   cache.gates [3 hidden, T*B] holds W_x x on entry, the gates' values afterwards
+/// shapes   cache.gates [3 hidden, T*B or more] holds W_x x on entry, the gates' values afterwards;
+///          a cache may be larger than the batch, columns behind T*B are not touched
 ///          active [1, T*B]  1 while the sequence lasts, 0 behind its end
 ///          cache.h [hidden, T*B]; the last block is the state after each whole sequence
 /// backward writes cache.dgates, the gradient of W_x x; accumulates into grads all but input_weight
@@ -40,12 +41,11 @@ struct Gru {
   struct Cache {
     Matrix<S> gates, h, h_prev, recurrent, dgates;  // recurrent: W_h h_prev (+ candidate bias)
     Matrix<S> dh, drecurrent;
-    void resize(Index hidden, SequenceShape shape) {
-      for (auto* m : {&gates, &dgates, &recurrent, &drecurrent}) {
-        m->resize(3 * hidden, shape.columns());
-      }
-      for (auto* m : {&h, &h_prev}) m->resize(hidden, shape.columns());
-      dh.resize(hidden, shape.batch);
+    /// Grows to hold `columns`; batches of any shape up to that size then cost no allocation.
+    void reserve(Index hidden, Index columns) {
+      if (columns <= gates.cols()) return;
+      for (auto* m : {&gates, &dgates, &recurrent, &drecurrent}) m->resize(3 * hidden, columns);
+      for (auto* m : {&h, &h_prev, &dh}) m->resize(hidden, columns);
     }
   };
 
@@ -79,7 +79,8 @@ struct Gru {
   static void backward(const Params& p, SequenceShape shape, In<S> active, In<S> dh_last, Cache& k,
                        Params& grads) {
     const Index hidden = p.hidden_weight.cols();
-    k.dh = dh_last;
+    auto dh = k.dh.leftCols(shape.batch);
+    dh = dh_last;
     for (Index t = shape.steps - 1; t >= 0; --t) {
       const auto x = shape.block(k.gates, t);
       const auto r = x.topRows(hidden).array(), z = x.middleRows(hidden, hidden).array();
@@ -89,24 +90,25 @@ struct Gru {
       auto dx = shape.block(k.dgates, t);
       auto du = shape.block(k.drecurrent, t);
       auto dn = dx.bottomRows(hidden).array();
-      dn = k.dh.array() * (S(1) - z) * (S(1) - n.square());
+      dn = dh.array() * (S(1) - z) * (S(1) - n.square());
       dn.rowwise() *= alive;
       dx.topRows(hidden).array() =
           dn * shape.block(k.recurrent, t).bottomRows(hidden).array() * r * (S(1) - r);
       auto dz = dx.middleRows(hidden, hidden).array();
-      dz = k.dh.array() * (h_prev - n) * z * (S(1) - z);
+      dz = dh.array() * (h_prev - n) * z * (S(1) - z);
       dz.rowwise() *= alive;
       du.topRows(2 * hidden) = dx.topRows(2 * hidden);
       du.bottomRows(hidden).array() = dn * r;
       // dh becomes dh_prev: through the update gate (all of it behind the end) and through W_h.
       for (Index b = 0; b < shape.batch; ++b) {
-        if (alive(b) != S(0)) k.dh.col(b).array() *= z.col(b);
+        if (alive(b) != S(0)) dh.col(b).array() *= z.col(b);
       }
-      k.dh.noalias() += p.hidden_weight.transpose() * du;
+      dh.noalias() += p.hidden_weight.transpose() * du;
     }
-    grads.hidden_weight.noalias() += k.drecurrent * k.h_prev.transpose();
-    grads.bias += k.dgates.rowwise().sum();
-    grads.candidate_bias += k.drecurrent.bottomRows(hidden).rowwise().sum();
+    const auto all = [&](const auto& m) { return m.leftCols(shape.columns()); };
+    grads.hidden_weight.noalias() += all(k.drecurrent) * all(k.h_prev).transpose();
+    grads.bias += all(k.dgates).rowwise().sum();
+    grads.candidate_bias += all(k.drecurrent).bottomRows(hidden).rowwise().sum();
   }
 };
 

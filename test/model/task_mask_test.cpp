@@ -1,0 +1,35 @@
+#include "wordgaze/model/task_mask.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace wordgaze::model {
+namespace {
+
+using Bits = std::vector<std::uint8_t>;
+
+TEST(TaskMask, CompletedSilencesOnlyWhatIsDone) {
+  EXPECT_EQ(bright_clauses(MaskTruth::completed, Bits{0, 0}, Bits{1, 0}), 0b11);
+  EXPECT_EQ(bright_clauses(MaskTruth::completed, Bits{1, 0}, Bits{0, 1}), 0b10);
+}
+
+TEST(TaskMask, NotEnabledSilencesWhatMustWait) {
+  EXPECT_EQ(bright_clauses(MaskTruth::not_enabled, Bits{0, 0}, Bits{1, 0}), 0b01);
+  EXPECT_EQ(bright_clauses(MaskTruth::not_enabled, Bits{0, 0}, Bits{1, 1}), 0b11);
+}
+
+TEST(TaskMask, CurrentKeepsOneClauseBright) {
+  EXPECT_EQ(bright_clauses(MaskTruth::current, Bits{0, 0}, Bits{1, 1}), 0b01);
+  EXPECT_EQ(bright_clauses(MaskTruth::current, Bits{0, 0}, Bits{0, 1}), 0b10);
+  EXPECT_EQ(bright_clauses(MaskTruth::current, Bits{1, 0}, Bits{0, 1}), 0b10);
+}
+
+TEST(TaskMask, JoiningWordsStayBright) {
+  EXPECT_TRUE(is_bright(-1, 0));
+  EXPECT_TRUE(is_bright(1, 0b10));
+  EXPECT_FALSE(is_bright(0, 0b10));
+}
+
+}  // namespace
+}  // namespace wordgaze::model
