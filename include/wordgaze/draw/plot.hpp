@@ -27,9 +27,12 @@ struct Plot {
 /// point.
 Image line_plot(const Plot& plot);
 
-/// Round numbers from `low` to `high`, about `count` of them: 1, 2 or 5 times a power of ten apart.
-std::vector<double> ticks(double low, double high, int count);
-/// "1.5M", "20k", "0.25": as many digits as neighbors `step` apart need.
-std::string tick_text(double value, double step);
+struct Tick {
+  double value;
+  std::string text;
+};
+/// About `count` round numbers from `low` to `high`, 1, 2 or 5 times a power of ten apart, with as
+/// many digits as it takes: "0.25", "20k", "1.5M".
+std::vector<Tick> ticks(double low, double high, int count);
 
 }  // namespace wordgaze::draw

@@ -1,0 +1,74 @@
+#pragma once
+#include <cairo.h>
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "wordgaze/draw/image.hpp"
+
+/// What figures are drawn with: Cairo on a white sheet, in pixels from the top left.
+namespace wordgaze::draw {
+
+inline constexpr Rgb kWhite{255, 255, 255};
+inline constexpr Rgb kInk{28, 30, 36};
+inline constexpr Rgb kSoftInk{105, 110, 122};
+inline constexpr Rgb kFaint{222, 225, 231};
+inline constexpr Rgb kAccent{200, 60, 90};
+inline constexpr Rgb kCalm{76, 110, 160};
+
+enum class Align { left, center, right };
+struct Font {
+  double size = 15;
+  bool bold = false;
+};
+struct Point {
+  double x, y;
+};
+
+class Canvas {
+ public:
+  Canvas(int width, int height);
+
+  void rectangle(double x, double y, double width, double height, Rgb color);
+  void line(const std::vector<Point>& points, Rgb color, double thickness);
+  void area(const std::vector<Point>& outline, Rgb color, double opacity);
+  /// As large as fits a square of `side` pixels.
+  void image(const Image& image, double x, double y, double side);
+  /// `y` is the base line.
+  void text(double x, double y, std::string_view text, Font font, Rgb color = kInk,
+            Align align = Align::left);
+  /// Reads upward, centered on the point.
+  void upward_text(double x, double y, std::string_view text, Font font, Rgb color = kInk);
+  double text_width(std::string_view text, Font font);
+  /// The words of a text in lines that are no wider than `width`, if the words are not.
+  std::vector<std::string> wrapped(std::string_view text, Font font, double width);
+
+  /// Until unclip(), only what lies in the rectangle is drawn.
+  void clip(double x, double y, double width, double height);
+  void unclip();
+
+  /// The sheet as it is now. Throws std::runtime_error when drawing failed.
+  Image finished() const;
+
+ private:
+  void color(Rgb color, double opacity = 1);
+  void font(Font font);
+  void path(const std::vector<Point>& points);
+
+  struct Destroy {
+    void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }
+    void operator()(cairo_t* c) const { cairo_destroy(c); }
+  };
+  std::unique_ptr<cairo_surface_t, Destroy> surface_;
+  std::unique_ptr<cairo_t, Destroy> context_;
+};
+
+/// A Cairo surface with the pixels of an image, and back.
+cairo_surface_t* surface_of(const Image& image);
+Image image_of(cairo_surface_t* surface);
+/// Throws std::runtime_error unless the status is success.
+void require_success(cairo_status_t status);
+
+}  // namespace wordgaze::draw
