@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,12 @@ class Verifier {
   std::span<const std::uint8_t> declarable() const { return {declarable_.data(), clauses_}; }
   /// One 0/1 per clause: came true at the last action; for the done modes other than off.
   std::span<const std::uint8_t> matched() const { return {matched_.data(), clauses_}; }
+
+  /// Where an object stood at the last look; none if it stood nowhere.
+  std::optional<grid::Position> last_seen(grid::ObjectId id) const {
+    if ((seen_ & grid::only(id)) == 0) return std::nullopt;
+    return seen_at_[id];
+  }
 
   /// Walks all members, to store or restore them.
   template <class Archive>

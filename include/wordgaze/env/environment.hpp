@@ -65,6 +65,8 @@ class Environment {
   const babyai::Sentence& sentence() const { return task_.sentence; }
   std::string mission() const { return babyai::text(task_.sentence); }
 
+  const babyai::Verifier& verifier() const { return verifier_; }
+
   /// The vector c_t: one 0/1 per clause, in the order of the sentence.
   std::span<const std::uint8_t> completion() const { return verifier_.completion(); }
   /// One 0/1 per clause: not completed, and its turn has come.
