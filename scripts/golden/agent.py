@@ -54,7 +54,9 @@ def random_parameters(choice, config):
     for head, outputs in (("actor", ACTIONS), ("critic", 1)):
         shapes |= {f"{head}.hidden.weight": (hidden, h + g), f"{head}.hidden.bias": (hidden,),
                    f"{head}.output.weight": (outputs, hidden), f"{head}.output.bias": (outputs,)}
-    parameters = {name: gaussian(choice, *shape) for name, shape in shapes.items()}
+    # Large scores: maps that differ, and word weights with them.
+    parameters = {name: gaussian(choice, *shape, scale=1.6 if name.startswith("attention") else 0.6)
+                  for name, shape in shapes.items()}
     # Encodings away from zero, or the ReLU would leave little to see.
     parameters["visual.bias"] = [round(b + 0.7, 3) for b in parameters["visual.bias"]]
     return parameters
