@@ -25,17 +25,7 @@ class Bot {
                                    std::optional<grid::Action> taken = std::nullopt);
 
  private:
-  struct Phrase {
-    int clause;
-    bool next_to;  // "put D next to E": E
-  };
-
-  void plan_clause(const env::Environment& env, int clause);
-  AnyOf phrase(const env::Environment& env, Phrase phrase);
-  static Sought look_up(const env::Environment& env, Phrase phrase);
-
   Memory memory_;
-  std::vector<Phrase> phrases_;  // those of the first entries of memory_.sought
   bool gave_up_ = false;
 };
 

@@ -13,8 +13,9 @@ namespace wordgaze::bot {
 struct Memory {
   Seen seen;
   Reach reach{};
-  std::vector<Subgoal> plan{};   ///< a stack: the last one is the next to be reached
-  std::vector<Sought> sought{};  ///< what subgoals look for: phrases of the instruction, then keys
+  std::vector<Subgoal> plan{};    ///< a stack: the last one is the next to be reached
+  std::vector<Sought> phrases{};  ///< two for each clause: its object, and "next to" what
+  std::vector<Sought> keys{};     ///< as they stood when they came to be needed
 
   /// The situation that the last suggestion was made for.
   struct Before {

@@ -17,10 +17,10 @@ struct Route {
 /// Whether a way may lead through objects that can be moved.
 enum class Through : std::uint8_t { free_cells, objects };
 
-/// Where the agent can get to, as far as it has seen: one breadth-first search from where it stands,
-/// first through free cells and open doors, then through objects as well. What is closer comes
-/// first; of cells equally far, those that need fewer turns. Walls, closed doors, objects and unseen
-/// cells are reached, but not crossed.
+/// Where the agent can get to, as far as it has seen: one breadth-first search from where it
+/// stands, first through free cells and open doors, then through objects as well. What is closer
+/// comes first; of cells equally far, those that need fewer turns. Walls, closed doors, objects and
+/// unseen cells are reached, but not crossed.
 class Reach {
  public:
   void search(const grid::World& world, const Seen& seen);

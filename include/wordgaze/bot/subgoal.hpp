@@ -31,11 +31,15 @@ struct Place {
 struct Door {
   grid::ObjectId id;
 };
-/// The closest of several objects, by their index in the bot's memory.
-struct AnyOf {
-  int sought;
+/// The closest of the objects that a phrase means, by its index in the bot's memory.
+struct Meant {
+  int phrase;
 };
-using Target = std::variant<Place, Door, AnyOf>;
+/// The closest of some keys, by their index in the bot's memory.
+struct Key {
+  int keys;
+};
+using Target = std::variant<Place, Door, Meant, Key>;
 
 /// Go and face a target.
 struct GoTo {
