@@ -1,0 +1,49 @@
+#include "wordgaze/babyai/level.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "wordgaze/babyai/generator.hpp"
+
+namespace wordgaze::babyai {
+namespace {
+
+TEST(Level, IsKnownForEveryIdOfTheReference) {
+  const std::vector<std::string> ids = level_ids();
+  const auto of = [&](std::string_view family) {
+    return std::count_if(ids.begin(), ids.end(),
+                         [&](const std::string& id) { return id.starts_with(family); });
+  };
+  EXPECT_EQ(of("BabyAI-"), 96);
+  EXPECT_EQ(of("MiniGrid-"), 76);
+  EXPECT_EQ(std::set(ids.begin(), ids.end()).size(), ids.size());
+}
+
+TEST(Level, TakesItsNumbersFromTheName) {
+  const LevelSpec level = find_level("Wordgaze-Two-N12-K5-v0");
+  EXPECT_EQ(level.room_size, 12);
+  EXPECT_EQ(level.objects, 5);
+  EXPECT_EQ(level.clauses, 2);
+  EXPECT_EQ(level.done_mode, DoneMode::sequential);
+  EXPECT_EQ(find_level("Wordgaze-One-N8-K4-auto-v0").done_mode, DoneMode::off);
+}
+
+TEST(Level, LimitsStepsByTheAreaAndTheInstruction) {
+  const LevelSpec maze = find_level("BabyAI-SynthS5R2-v0");
+  const Clause go{.verb = Verb::go_to}, put{.verb = Verb::put_next};
+  EXPECT_EQ(step_limit(maze, single(go)), 150);
+  EXPECT_EQ(step_limit(maze, ordered(both(go, put), Order::after, single(put))), 5 * 150);
+  EXPECT_EQ(step_limit(find_level("BabyAI-KeyCorridor-v0"), single(go)), 1080);
+}
+
+TEST(Instruction, RefusesToOrderWhatHasAnOrder) {
+  const Instruction a = single({});
+  const Instruction pair = ordered(a, Order::before, a);
+  EXPECT_THROW(ordered(pair, Order::before, a), std::invalid_argument);
+  EXPECT_THROW(ordered(a, Order::any, a), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace wordgaze::babyai

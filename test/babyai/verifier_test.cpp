@@ -1,0 +1,212 @@
+#include "wordgaze/babyai/verifier.hpp"
+
+#include <gtest/gtest.h>
+
+#include "grid/drawn_world.hpp"
+#include "wordgaze/babyai/parser.hpp"
+#include "wordgaze/grid/step.hpp"
+
+namespace wordgaze::babyai {
+namespace {
+
+using grid::Action;
+using grid::World;
+using enum grid::Action;
+
+// An instruction in a drawn world: plays actions and tells the verdicts.
+class Play {
+ public:
+  Play(std::string_view mission, const std::vector<std::string_view>& rows,
+       DoneMode mode = DoneMode::off, bool strict = false)
+      : world(grid::drawn(rows)) {
+    task_.instruction = parse_mission(mission);
+    task_.instruction.strict = strict;
+    for (Clause& clause : task_.instruction.clause) clause.strict = strict;
+    task_.meaning = look_up(world, task_.instruction);
+    verifier_.begin(world, task_.instruction, mode);
+  }
+
+  // The verdict on the last of some actions.
+  Status operator()(std::initializer_list<Action> actions) {
+    Status status = Status::none;
+    for (Action action : actions) {
+      step(world, action);
+      if (action == drop) verifier_.refresh(world);
+      status = verifier_.verify(world, task_, action);
+    }
+    return status;
+  }
+
+  std::vector<int> completion() const {
+    return {verifier_.completion().begin(), verifier_.completion().end()};
+  }
+  std::vector<int> declarable() const {
+    return {verifier_.declarable().begin(), verifier_.declarable().end()};
+  }
+
+  World world;
+
+ private:
+  Task task_;
+  Verifier verifier_;
+};
+
+TEST(Verifier, SeesTheAgentFaceItsTarget) {
+  Play play("go to the red ball", {">..B"});
+  EXPECT_EQ(play({forward}), Status::ongoing);
+  EXPECT_EQ(play({forward}), Status::success);
+  EXPECT_EQ(play.completion(), (std::vector{1}));
+}
+
+TEST(Verifier, KnowsWhereAThingStoodUntilTheNextDrop) {
+  // The ball is gone from there, and still counts.
+  Play play("go to the red ball and pick up the red key", {">B.K"});
+  EXPECT_EQ(play({pickup}), Status::ongoing);
+  EXPECT_EQ(play.completion(), (std::vector{1, 0}));
+  Play stale("go to the red ball, then pick up the red key", {">B.", "..."});
+  EXPECT_EQ(stale({pickup, right, right}), Status::ongoing);
+}
+
+TEST(Verifier, GoesByTheNewPlaceAfterADrop) {
+  Play play("pick up the red ball, then go to the red ball", {">B.", "..."});
+  EXPECT_EQ(play({pickup}), Status::success);  // it faces the place where the ball stood
+  Play moved("go to the red ball", {"B>.", "..."});
+  EXPECT_EQ(moved({left, left}), Status::success);
+  EXPECT_EQ(moved({pickup, left}), Status::ongoing);
+  EXPECT_EQ(moved({drop}), Status::success);  // looks down at it
+}
+
+TEST(Verifier, CountsAPickupWithEmptyHandsOnly) {
+  Play play("pick up the red ball", {"...", "K>B"});
+  play({left, left, pickup});
+  EXPECT_EQ(play({right, right, pickup}), Status::ongoing);
+  play({left, drop});
+  EXPECT_EQ(play({right, pickup}), Status::success);
+}
+
+TEST(Verifier, CountsTheSecondPickupInTheStepOfTheFirst) {
+  // Its hands before are looked at when its turn comes: empty, as far as it knows.
+  Play play("pick up a ball, then pick up a red ball", {">B.b"});
+  EXPECT_EQ(play({pickup}), Status::success);
+}
+
+TEST(Verifier, WantsTheObjectPutBesideTheOther) {
+  Play play("put the red ball next to the red key", {"B>.K", "...."});
+  play({left, left, pickup, right, right});
+  EXPECT_EQ(play({drop}), Status::success);
+  Play far("put the red ball next to the red key", {"B>..K", "....."});
+  far({left, left, pickup, right, right});
+  EXPECT_EQ(far({drop}), Status::ongoing);
+}
+
+TEST(Verifier, WantsADoorOpenedByToggling) {
+  Play play("open the red door", {">c"});
+  EXPECT_EQ(play({forward}), Status::ongoing);
+  EXPECT_EQ(play({toggle}), Status::success);
+  EXPECT_EQ(play({toggle}), Status::ongoing);
+}
+
+TEST(Verifier, WantsFirstWhatIsFirst) {
+  Play before("go to the red ball, then go to the red key", {"K>B"});
+  EXPECT_EQ(before.declarable(), (std::vector{1, 0}));
+  EXPECT_EQ(before({left, left}), Status::ongoing);
+  EXPECT_EQ(before.completion(), (std::vector{0, 0}));
+  EXPECT_EQ(before({left, left}), Status::ongoing);
+  EXPECT_EQ(before.completion(), (std::vector{1, 0}));
+  EXPECT_EQ(before({left, left}), Status::success);
+
+  Play after("go to the red ball after you go to the red key", {"K>B"});
+  EXPECT_EQ(after.declarable(), (std::vector{0, 1}));
+  after({left, left});
+  EXPECT_EQ(after.completion(), (std::vector{0, 1}));
+  EXPECT_EQ(after({left, left}), Status::success);
+}
+
+TEST(Verifier, TakesBothInAnyOrder) {
+  Play play("go to the red ball and go to the red key", {"K>B"});
+  EXPECT_EQ(play({left, left}), Status::ongoing);
+  EXPECT_EQ(play.completion(), (std::vector{0, 1}));
+  EXPECT_EQ(play.declarable(), (std::vector{1, 0}));
+  EXPECT_EQ(play({left, left}), Status::success);
+}
+
+TEST(Verifier, FailsForTheWrongThingWhenStrict) {
+  const bool strict = true;
+  Play pick("pick up the red ball", {">bB"}, DoneMode::off, strict);
+  EXPECT_EQ(pick({pickup}), Status::failure);
+  Play open("open the red door", {">l"}, DoneMode::off, strict);
+  EXPECT_EQ(open({toggle}), Status::failure);
+  Play order("go to the red ball, then go to the red key", {"K>b", "..B"}, DoneMode::off, strict);
+  EXPECT_EQ(order({left, left}), Status::failure);
+  Play both("pick up the red ball and go to the red ball", {">bB"}, DoneMode::off, strict);
+  EXPECT_EQ(both({pickup}), Status::ongoing);  // a failure of one of two is ignored
+}
+
+TEST(Verifier, AsksForDoneInExactMode) {
+  Play early("go to the red ball", {">..B"}, DoneMode::exact);
+  EXPECT_EQ(early({done}), Status::failure);
+  Play play("go to the red ball", {">..B"}, DoneMode::exact);
+  EXPECT_EQ(play({forward, forward}), Status::none);
+  EXPECT_EQ(play({done}), Status::success);
+}
+
+TEST(Verifier, CannotEndTwoInOrderInExactMode) {
+  // The done that completes the first is a failure for the second, as in the reference.
+  Play play("go to the red ball, then go to the red key", {"K>B"}, DoneMode::exact);
+  play({left, left, right, right});
+  EXPECT_EQ(play({done}), Status::failure);
+}
+
+TEST(Verifier, ForgivesDoneForTwoAtOnceUnlessItIsAnEnumMember) {
+  constexpr std::string_view kMission = "go to the red ball and go to the red key";
+  Play number(kMission, {"K>.B"}, DoneMode::exact);
+  EXPECT_EQ(number({done}), Status::ongoing);
+  Play member(kMission, {"K>.B"}, DoneMode::exact_enum);
+  EXPECT_EQ(member({done}), Status::failure);
+}
+
+TEST(Verifier, TakesEachDeclarationInItsTurnInSequentialMode) {
+  Play play("go to the red ball, then go to the red key", {"K>B"}, DoneMode::sequential);
+  EXPECT_EQ(play({left, right}), Status::ongoing);
+  EXPECT_EQ(play({done}), Status::ongoing);
+  EXPECT_EQ(play.completion(), (std::vector{1, 0}));
+  EXPECT_EQ(play.declarable(), (std::vector{0, 1}));
+  EXPECT_EQ(play({left, left}), Status::ongoing);
+  EXPECT_EQ(play({done}), Status::success);
+}
+
+TEST(Verifier, FailsWhenThereIsNothingToDeclareInSequentialMode) {
+  Play early("go to the red ball", {">..B"}, DoneMode::sequential);
+  EXPECT_EQ(early({forward, done}), Status::failure);
+  Play late("pick up the red ball", {">B"}, DoneMode::sequential);
+  EXPECT_EQ(late({pickup, left, done}), Status::failure);
+  Play twice("go to the red ball, then go to the red ball", {">.B"}, DoneMode::sequential);
+  EXPECT_EQ(twice({forward, done}), Status::ongoing);
+  EXPECT_EQ(twice({done}), Status::failure);  // it must come true again
+}
+
+TEST(Meaning, FitsADescriptionFromWhereTheAgentStands) {
+  const World world = grid::drawn({"..B..",  //
+                                   "..^..",  //
+                                   "B.b.K"});
+  const auto count = [&](const Description& d) {
+    return std::popcount(matching_objects(world, d));
+  };
+  using grid::Type;
+  EXPECT_EQ(count({.type = Type::ball}), 3);
+  EXPECT_EQ(count({.type = Type::ball, .location = Location::front}), 1);
+  EXPECT_EQ(count({.type = Type::ball, .location = Location::behind}), 2);
+  EXPECT_EQ(count({.type = Type::ball, .location = Location::left}), 1);
+  EXPECT_EQ(count({.type = Type::key, .location = Location::right}), 1);
+  EXPECT_EQ(count({.type = Type::box}), 0);
+}
+
+TEST(Meaning, TakesWallsForGreyObjectsOfAnyType) {
+  const World world = grid::drawn({"###", "#>#", "###"});
+  EXPECT_EQ(matching_objects(world, {.color = grid::Color::grey}), grid::only(grid::kWall));
+  EXPECT_TRUE(several(grid::only(grid::kWall)));
+  EXPECT_EQ(matching_objects(world, {.color = grid::Color::red}), 0u);
+}
+
+}  // namespace
+}  // namespace wordgaze::babyai

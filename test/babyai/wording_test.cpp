@@ -1,0 +1,65 @@
+#include "wordgaze/babyai/wording.hpp"
+
+#include <gtest/gtest.h>
+
+#include "grid/drawn_world.hpp"
+#include "wordgaze/babyai/parser.hpp"
+
+namespace wordgaze::babyai {
+namespace {
+
+Sentence worded(std::string_view mission, const std::vector<std::string_view>& rows) {
+  const Instruction instruction = parse_mission(mission);
+  return wording(instruction, look_up(grid::drawn(rows), instruction));
+}
+
+TEST(Wording, SaysTheForOneAndAForSeveral) {
+  EXPECT_EQ(text(worded("go to a ball", {"#####", "#>.B#", "#####"})), "go to the ball");
+  EXPECT_EQ(text(worded("go to the ball", {"#####", "#>bB#", "#####"})), "go to a ball");
+}
+
+TEST(Wording, WritesTheCommaBehindItsWord) {
+  EXPECT_EQ(
+      text(worded("open the red door, then put the ball in front of you next to the key behind you",
+                  {"#######", "#K.>Bc#", "#######"})),
+      "open the red door, then put the ball in front of you next to the key behind you");
+}
+
+TEST(Wording, TellsWhichClauseAWordBelongsTo) {
+  const Sentence s = worded("go to the ball and pick up the key after you open the door",
+                            {"#######", "#K.>Bc#", "#######"});
+  EXPECT_EQ(text(s), "go to the ball and pick up the key after you open the door");
+  const std::vector<int> clauses(s.clause_of.begin(), s.clause_of.begin() + s.length);
+  EXPECT_EQ(clauses, (std::vector{0, 0, 0, 0, -1, 1, 1, 1, 1, -1, -1, 2, 2, 2}));
+}
+
+TEST(Wording, KeepsTheLongestMissionOfTheGrammar) {
+  const std::string d = "the purple ball in front of you";
+  const std::string clause = "put " + d + " next to " + d;
+  const std::string part = clause + " and " + clause;
+  EXPECT_EQ(worded(part + " after you " + part, {">B"}).length, 72);
+  const Sentence longest = worded(part + ", then " + part, {">B"});
+  EXPECT_EQ(longest.length, 72);  // with the comma
+  EXPECT_LE(longest.length, kMaxMissionWords);
+  EXPECT_EQ(text(longest).size(), 317u);
+}
+
+TEST(Sentence, IsReadFromText) {
+  const Sentence s = sentence_of("unlock the door,  go");
+  EXPECT_EQ(s.length, 5);
+  EXPECT_EQ(word(s.words[3]), ",");
+  EXPECT_EQ(text(s), "unlock the door, go");
+  EXPECT_THROW(sentence_of("go to the moon"), std::invalid_argument);
+  EXPECT_EQ(sentence_of("").length, 0);
+}
+
+TEST(Vocabulary, IsAlphabeticalBehindPadding) {
+  EXPECT_EQ(word(kPadding), "");
+  EXPECT_TRUE(std::is_sorted(kWords.begin(), kWords.end()));
+  for (WordId id = 1; id < kVocabularySize; ++id) EXPECT_EQ(word_id(word(id)), id);
+  EXPECT_FALSE(word_id("").has_value());
+  EXPECT_FALSE(word_id("gone").has_value());
+}
+
+}  // namespace
+}  // namespace wordgaze::babyai

@@ -1,0 +1,20 @@
+#include "wordgaze/env/level_docs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace wordgaze::env {
+namespace {
+
+TEST(LevelDocs, AreUpToDate) {
+  std::ifstream file(WORDGAZE_SOURCE_DIR "/docs/levels.md");
+  std::stringstream kept, now;
+  kept << file.rdbuf();
+  write_level_docs(now);
+  EXPECT_EQ(kept.str(), now.str()) << "renew it: trace --levels > docs/levels.md";
+}
+
+}  // namespace
+}  // namespace wordgaze::env
