@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "wordgaze/babyai/level.hpp"
+#include "wordgaze/bot/policy.hpp"
 #include "wordgaze/env/trace.hpp"
 
 // Reads and writes traces of episodes, and compares the simulator with the reference's.
@@ -55,7 +56,6 @@ int record(const env::RecordOptions& options, const std::string& path) {
 int main(int argc, char** argv) {
   CLI::App app{"Replay reference traces, or record our own"};
   std::string replayed, out = "-", seeds = "0:4";
-  std::string policy = "random";
   env::RecordOptions options;
   auto* replay_option = app.add_option("--replay", replayed,
                                        "Compare the simulator with a trace ('-': standard input)");
@@ -64,8 +64,8 @@ int main(int argc, char** argv) {
                          ->excludes(replay_option);
   app.add_option("--seeds", seeds, "A:B, one stream of episodes for each seed from A to B - 1")
       ->needs(env_option);
-  app.add_option("--policy", policy, "Who acts")
-      ->check(CLI::IsMember({"random"}))
+  app.add_option("--policy", options.policy_name, "Who acts; mixed: the bot for even seeds")
+      ->check(CLI::IsMember({"random", "bot", "mixed"}))
       ->needs(env_option);
   app.add_option("--policy-seed", options.policy_seed, "Varies the policy")->needs(env_option);
   app.add_option("--steps", options.steps, "Steps for each seed")
@@ -87,6 +87,7 @@ int main(int argc, char** argv) {
     if (!*env_option) throw std::invalid_argument("expected --replay FILE or --env ID");
     if (options.ids == std::vector<std::string>{"all"}) options.ids = babyai::level_ids();
     parse_seeds(seeds, options);
+    options.policy = bot::policy_maker(options.policy_name);
     return record(options, out);
   } catch (const std::exception& error) {
     fmt::print(std::cerr, "trace: {}\n", error.what());

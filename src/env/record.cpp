@@ -2,7 +2,6 @@
 
 #include "trace_json.hpp"
 #include "wordgaze/babyai/level.hpp"
-#include "wordgaze/env/random_policy.hpp"
 #include "wordgaze/env/trace.hpp"
 
 namespace wordgaze::env {
@@ -14,7 +13,7 @@ class Recorder {
       : options_(options), env_(level(id)), out_(out) {}
 
   void record_stream(std::uint64_t seed) {
-    RandomPolicy policy(env_.id(), seed, options_.policy_seed);
+    const Policy policy = options_.policy(env_.id(), seed, options_.policy_seed);
     int episode = 0;
     env_.reset(seed);
     write_reset(seed, seed, episode);
@@ -55,7 +54,7 @@ class Recorder {
 
 void record(const RecordOptions& options, std::ostream& trace) {
   trace << Json{{"t", "meta"},
-                {"policy", "random"},
+                {"policy", options.policy_name},
                 {"policy_seed", options.policy_seed},
                 {"seeds", {options.first_seed, options.end_seed}},
                 {"steps", options.steps},

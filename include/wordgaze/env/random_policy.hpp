@@ -14,10 +14,12 @@ class RandomPolicy {
 
   grid::Action operator()(const Environment& env);
 
+  /// Draws 0 to 99 from its stream, for a policy that falls back on this one.
+  int percent() { return below(100); }
+
  private:
   std::uint64_t next();
   int below(int n) { return static_cast<int>(next() % static_cast<std::uint64_t>(n)); }
-  int percent() { return below(100); }
   grid::Action turn() { return below(2) == 0 ? grid::Action::left : grid::Action::right; }
   grid::Action choose(const Environment& env);
 

@@ -4,6 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "wordgaze/env/policy.hpp"
+#include "wordgaze/env/random_policy.hpp"
+
 /// Traces of episodes as JSON Lines, one record per reset and step: the reference's worlds on
 /// paper. docs/formats.md describes the records.
 namespace wordgaze::env {
@@ -24,10 +27,12 @@ struct RecordOptions {
   std::int64_t first_seed = 0, end_seed = 4;  ///< [first, end): one stream of episodes for each
   int steps = 100;                            ///< per seed
   std::uint64_t policy_seed = 0;
+  std::string policy_name = "random";
+  PolicyMaker policy = make_policy<RandomPolicy>;
   bool done_actions = false;  ///< the reference's done mode on ids that have none of their own
 };
 
-/// Writes the traces of the random policy.
+/// Writes the traces of a policy.
 void record(const RecordOptions& options, std::ostream& trace);
 
 }  // namespace wordgaze::env
