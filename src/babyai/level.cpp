@@ -7,7 +7,7 @@
 
 #include "generators.hpp"
 #include "level_table.hpp"
-#include "wordgaze/core/nearest.hpp"
+#include "wordgaze/core/edit_distance.hpp"
 #include "wordgaze/core/require.hpp"
 
 namespace wordgaze::babyai {

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "wordgaze/core/nearest.hpp"
+#include "wordgaze/core/edit_distance.hpp"
 #include "wordgaze/core/require.hpp"
 
 namespace wordgaze::io::detail {

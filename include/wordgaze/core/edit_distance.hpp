@@ -1,14 +1,14 @@
 #pragma once
 #include <algorithm>
 #include <numeric>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 namespace wordgaze {
 
-/// Number of insertions, deletions and replacements of one character that turn `a` into `b`.
+/// Number of insertions, deletions and replacements of one character that turn `a` into `b`:
+/// how far a name is from one that is known, for "did you mean ...?".
 inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -21,21 +21,6 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
     }
   }
   return row.back();
-}
-
-/// The known name closest to what was written, for "did you mean ...?"; empty if none is known.
-/// Of equally close ones, the first.
-template <class Names>
-std::string nearest(std::string_view written, const Names& known) {
-  std::string_view best;
-  std::size_t least = std::string_view::npos;
-  for (const std::string_view name : known) {
-    if (const std::size_t distance = edit_distance(written, name); distance < least) {
-      least = distance;
-      best = name;
-    }
-  }
-  return std::string(best);
 }
 
 }  // namespace wordgaze
