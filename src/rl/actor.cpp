@@ -42,7 +42,8 @@ void Actor::observe(int lane, const env::Environment& environment) {
 
 void Actor::decide(const Agent::Params& params, const Agent::Tables& tables) {
   if (fresh_.size() > 0) {
-    const auto text = agent_->encode_missions(params, tables, fresh_, text_cache_);
+    agent_->encode_missions(params, tables, fresh_, text_cache_);
+    const auto text = Agent::text(text_cache_);
     if (text_.cols() < missions_.size()) {
       text_.conservativeResize(text.rows(), std::max<Index>(2 * text_.cols(), missions_.size()));
     }

@@ -158,8 +158,8 @@ void Learner::differentiate(const Minibatch& batch, std::span<const int> sequenc
   gather(batch, sequences, worker);
   const auto& x = worker.frames;
   auto& cache = worker.cache;
-  agent_->forward(params_, tables_, x, worker.missions,
-                  agent_->encode_missions(params_, tables_, worker.missions, cache), cache);
+  agent_->encode_missions(params_, tables_, worker.missions, cache);
+  agent_->forward(params_, tables_, x, worker.missions, Agent::text(cache), cache);
   const float scale =
       1.0f / static_cast<float>(batch.sequences.size() * static_cast<std::size_t>(r.chunk));
   for (Index b = 0; b < x.shape.batch; ++b) {

@@ -71,8 +71,8 @@ struct AgentFixture {
 
   void forward() {
     agent.update_all_tables(params, tables);
-    agent.forward(params, tables, frames, missions,
-                  agent.encode_missions(params, tables, missions, cache), cache);
+    agent.encode_missions(params, tables, missions, cache);
+    agent.forward(params, tables, frames, missions, agent.text(cache), cache);
   }
 };
 

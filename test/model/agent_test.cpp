@@ -92,8 +92,8 @@ struct PlainTwin {
           Vector<double> one_hot = Vector<double>::Zero(20);
           const auto code = f.agent.alphabet[x.cells(cell, n)];
           one_hot(code.type) = one_hot(11 + code.color) = one_hot(17 + code.state) = 1;
-          encoding.col(cell) =
-              (f.params.visual.weight * one_hot + f.params.visual.bias).cwiseMax(0);
+          const Vector<double> e = f.params.visual.weight * one_hot + f.params.visual.bias;
+          encoding.col(cell) = e.cwiseMax(c.encoder_leak * e);
         }
         const Matrix<double> filtered = encoding * scale(n, encoding, s).asDiagonal();
         const auto& m = f.params.memory;
@@ -225,8 +225,7 @@ TEST(Agent, SurvivesScoresFarBelowThoseOutOfView) {
     if (f.frames.cells.data()[i] == hidden_code) f.frames.cells.data()[i] = 1;
   }
   f.tables.attention.scores.row(hidden_code).setConstant(1000);
-  f.agent.forward(f.params, f.tables, f.frames, f.missions,
-                  f.agent.encode_missions(f.params, f.tables, f.missions, f.cache), f.cache);
+  f.agent.forward(f.params, f.tables, f.frames, f.missions, f.agent.text(f.cache), f.cache);
   EXPECT_TRUE(f.cache.logits().allFinite());
   EXPECT_GT(f.cache.attention.scale.colwise().maxCoeff().minCoeff(), 0.99f);
 }

@@ -28,6 +28,7 @@ Config config_of(const Json& j) {
   c.clauses = j.at("clauses");
   c.entropy_base = j.at("entropy_base");
   c.gaze_exponent = j.at("gaze_exponent");
+  c.encoder_leak = j.at("encoder_leak");
   return c;
 }
 
@@ -65,8 +66,8 @@ struct Reference {
       frames.start.c.col(b) = test::column(json.at("start").at("c").at(lane));
     }
     agent.update_all_tables(params, tables);
-    agent.forward(params, tables, frames, missions,
-                  agent.encode_missions(params, tables, missions, cache), cache);
+    agent.encode_missions(params, tables, missions, cache);
+    agent.forward(params, tables, frames, missions, agent.text(cache), cache);
   }
 
   void read_frame(Index n) {

@@ -88,45 +88,14 @@ struct Agent {
     const Matrix<S>& values() const { return critic.output; }  ///< [1, N]
   };
 
-  Params make_params() const {
-    const Config& c = config;
-    Params p;
-    VisualEncoder<S>::resize(p.visual, c.channels);
-    p.words.resize(c.word_size, babyai::kVocabularySize);
-    if (c.attention) Attention::resize(p.attention, c.key_size, c.word_size, c.channels);
-    Memory::resize(p.memory, grid::kViewCells * c.channels, c.memory_size);
-    nn::Gru<S>::resize(p.text, c.word_size, c.text_size);
-    if (c.task_attention) {
-      nn::Linear<S>::resize(p.task.hidden, c.word_size + c.clauses, c.task_size);
-      nn::Linear<S>::resize(p.task.output, c.task_size, c.task_words);
-    }
-    Head<S>::resize(p.actor, c.memory_size + c.text_size, c.head_size, grid::kActions);
-    Head<S>::resize(p.critic, c.memory_size + c.text_size, c.head_size, 1);
-    nn::set_zero(p);
-    return p;
-  }
+  Params make_params() const;
 
-  Tables make_tables() const {
-    const Config& c = config;
-    Tables t;
-    t.visual.setZero(c.channels, alphabet.size());
-    if (c.attention) t.attention.resize(c.key_size, babyai::kVocabularySize, alphabet.size());
-    t.input.setZero(4 * c.memory_size, grid::kViewCells * alphabet.size());
-    t.text.setZero(3 * c.text_size, babyai::kVocabularySize);
-    t.words.setZero(c.word_size, babyai::kVocabularySize);
-    return t;
-  }
+  Tables make_tables() const;
 
   /// The tables of these weights, all but `input`.
-  void update_tables(const Params& p, Tables& t) const {
-    VisualEncoder<S>::forward(p.visual, alphabet, t.visual);
-    if (config.attention) Attention::make_tables(p.attention, p.words, t.visual, t.attention);
-    TextEncoder<S>::make_table(p.text, p.words, t.text);
-  }
+  void update_tables(const Params& p, Tables& t) const;
   /// Cells [from, to) of the input table, after update_tables: the large one, to be shared out.
-  void update_input_table(const Params& p, Index from, Index to, Tables& t) const {
-    FilteredInput<S>::make_table(p.memory.input_weight, t.visual, from, to, t.input);
-  }
+  void update_input_table(const Params& p, Index from, Index to, Tables& t) const;
   void update_all_tables(const Params& p, Tables& t) const {
     update_tables(p, t);
     update_input_table(p, 0, grid::kViewCells, t);
@@ -134,152 +103,231 @@ struct Agent {
 
   /// Cells [from, to) of dt.input -> memory.input_weight and dt.visual.
   void input_table_backward(const Params& p, const Tables& t, const Tables& dt, Index from,
-                            Index to, Params& grads, Out<S> dvisual) const {
-    FilteredInput<S>::table_backward(p.memory.input_weight, t.visual, dt.input, from, to,
-                                     grads.memory.input_weight, dvisual);
-  }
+                            Index to, Params& grads, Out<S> dvisual) const;
   /// The other tables' gradients -> weights; dt is used up.
-  void tables_backward(const Params& p, const Tables& t, Tables& dt, Params& grads) const {
-    TextEncoder<S>::table_backward(p.text, p.words, dt.text, grads.text, grads.words);
-    if (config.attention) {
-      Attention::tables_backward(p.attention, p.words, t.visual, t.attention, dt.attention,
-                                 grads.attention, grads.words, dt.visual);
-    }
-    grads.words += dt.words;
-    VisualEncoder<S>::backward(alphabet, t.visual, dt.visual, grads.visual);
-  }
+  void tables_backward(const Params& p, const Tables& t, Tables& dt, Params& grads) const;
   void all_tables_backward(const Params& p, const Tables& t, Tables& dt, Params& grads) const {
     input_table_backward(p, t, dt, 0, grid::kViewCells, grads, dt.visual);
     tables_backward(p, t, dt, grads);
   }
-  static void set_zero(Tables& t) {
-    t.visual.setZero();
-    t.attention.scores.setZero();
-    t.input.setZero();
-    t.text.setZero();
-    t.words.setZero();
-  }
+  static void set_zero(Tables& t);
 
-  /// The text features [G, M] of all missions: a block of the cache.
-  auto encode_missions(const Params& p, const Tables& t, const Missions& missions, Cache& k) const {
-    TextEncoder<S>::forward(p.text, t.text, missions, k.text);
-    return TextEncoder<S>::text(k.text);
-  }
+  /// Encodes all missions into the cache, from where text() takes their features [G, M].
+  void encode_missions(const Params& p, const Tables& t, const Missions& missions, Cache& k) const;
+  static auto text(const Cache& k) { return TextEncoder<S>::text(k.text); }
 
   /// From frames and the text features [G, M or more] of their missions to logits and values.
   void forward(const Params& p, const Tables& t, const Frames<S>& x, const Missions& missions,
-               In<S> text, Cache& k) const {
-    fit(x.shape, missions.longest, k);
-    const Index hidden = config.memory_size;
-    if (config.attention) {
-      Attention::forward_words(t.attention, x.cells, missions, x.mission_of, sharpness(),
-                               k.attention);
-      if (config.task_attention) {
-        weigh_words(p, missions, x, k);
-        TaskAttention<S>::forward(p.task, k.task);
-        const Index words = std::min(k.alpha.rows(), k.task.alpha.rows());
-        k.alpha.topRows(words) = k.task.alpha.topRows(words);
-      }
-      Attention::forward_gaze(missions, x.mission_of, k.alpha, static_cast<S>(config.gaze_exponent),
-                              k.attention);
-    }
-    FilteredInput<S>::forward(t.input, x.cells, scale(k), k.memory.gates);
-    Memory::forward(p.memory, x.shape, x.keep, x.start, k.memory);
-    k.features.topRows(hidden) = k.memory.h;
-    for (Index n = 0; n < x.shape.columns(); ++n) {
-      k.features.col(n).tail(config.text_size) =
-          text.col(x.mission_of[static_cast<std::size_t>(n)]);
-    }
-    Head<S>::forward(p.actor, k.features, k.actor);
-    Head<S>::forward(p.critic, k.features, k.critic);
-  }
+               In<S> text, Cache& k) const;
 
   /// From dlogits [7, N] and dvalues [1, N] (and, with the task module, cache.task.dlogits: what
   /// the mask loss asks) to grads and dt; both accumulate (+=). The missions are those that
   /// encode_missions saw last in this cache.
   void backward(const Params& p, const Tables& t, const Frames<S>& x, const Missions& missions,
-                In<S> dlogits, In<S> dvalues, Cache& k, Params& grads, Tables& dt) const {
-    const Index hidden = config.memory_size;
-    k.dfeatures.setZero();
-    Head<S>::backward(p.critic, k.features, dvalues, k.critic, grads.critic, k.dfeatures);
-    Head<S>::backward(p.actor, k.features, dlogits, k.actor, grads.actor, k.dfeatures);
-    k.text.dtext.setZero();
-    for (Index n = 0; n < x.shape.columns(); ++n) {
-      k.text.dtext.col(x.mission_of[static_cast<std::size_t>(n)]) +=
-          k.dfeatures.col(n).tail(config.text_size);
-    }
-    TextEncoder<S>::backward(p.text, missions, k.text, grads.text, dt.text);
-    Memory::backward(p.memory, x.shape, x.keep, k.dfeatures.topRows(hidden), k.memory,
-                     grads.memory);
-    FilteredInput<S>::backward(t.input, x.cells, scale(k), k.memory.dgates, dt.input, k.dscale);
-    if (!config.attention) return;
-    Attention::backward_gaze(missions, x.mission_of, k.alpha, static_cast<S>(config.gaze_exponent),
-                             k.dscale, k.attention, k.dalpha);
-    if (config.task_attention) {
-      TaskAttention<S>::backward(p.task, k.dalpha, k.task, grads.task);
-      weigh_words_backward(p, missions, x, k, dt);
-    }
-    Attention::backward_words(missions, x.mission_of, k.alpha, sharpness(), k.attention,
-                              dt.attention.scores);
-  }
+                In<S> dlogits, In<S> dvalues, Cache& k, Params& grads, Tables& dt) const;
 
  private:
+  S leak() const { return static_cast<S>(config.encoder_leak); }
   S sharpness() const { return static_cast<S>(1 / std::log(config.entropy_base)); }
   const Matrix<S>& scale(const Cache& k) const {
     return config.attention ? k.attention.scale : k.scale;
   }
 
   /// Sizes the cache for these frames; does nothing from the second call on.
-  void fit(nn::SequenceShape shape, Index longest, Cache& k) const {
-    // Whole packets a column, so that what is rounded how does not depend on earlier batches.
-    const Index words = std::max<Index>((longest + 15) / 16 * 16, k.alpha.rows());
-    if (shape == k.shape && words == k.alpha.rows()) return;
-    require(!config.task_attention || longest <= config.task_words,
-            "agent: a mission has {} words, the Task Attention Module takes {}; raise "
-            "model.task_words",
-            longest, config.task_words);
-    const Index frames = shape.columns(), codes = alphabet.size();
-    k.shape = shape;
-    if (config.attention) k.attention.resize(codes, frames, words);
-    if (config.task_attention) {
-      k.task.resize(config.word_size + config.clauses, config.task_size, config.task_words, frames);
-    }
-    k.memory.resize(config.memory_size, shape);
-    k.actor.resize(config.head_size, grid::kActions, frames);
-    k.critic.resize(config.head_size, 1, frames);
-    k.alpha.setOnes(words, frames);
-    k.dalpha.setZero(config.task_attention ? config.task_words : words, frames);
-    k.scale.setOnes(codes, frames);
-    k.dscale.setZero(codes, frames);
-    for (auto* m : {&k.features, &k.dfeatures}) {
-      m->setZero(config.memory_size + config.text_size, frames);
-    }
-  }
+  void fit(nn::SequenceShape shape, Index longest, Cache& k) const;
 
   /// The task module's input: sum_i w_i e_i over c_t.
-  void weigh_words(const Params& p, const Missions& missions, const Frames<S>& x, Cache& k) const {
-    k.task.x.topRows(config.word_size).setZero();
-    k.task.x.bottomRows(config.clauses) = x.completion;
-    for (Index n = 0; n < x.shape.columns(); ++n) {
-      const auto& sentence = missions[x.mission_of[static_cast<std::size_t>(n)]];
-      for (Index i = 0; i < sentence.length; ++i) {
-        k.task.x.col(n).head(config.word_size) +=
-            k.attention.weights(i, n) * p.words.col(sentence.words[static_cast<std::size_t>(i)]);
-      }
-    }
-  }
+  void weigh_words(const Params& p, const Missions& missions, const Frames<S>& x, Cache& k) const;
   void weigh_words_backward(const Params& p, const Missions& missions, const Frames<S>& x, Cache& k,
-                            Tables& dt) const {
-    for (Index n = 0; n < x.shape.columns(); ++n) {
-      const auto& sentence = missions[x.mission_of[static_cast<std::size_t>(n)]];
-      const auto dx = k.task.dx.col(n).head(config.word_size);
-      for (Index i = 0; i < sentence.length; ++i) {
-        const Index word = sentence.words[static_cast<std::size_t>(i)];
-        k.attention.dweights(i, n) += p.words.col(word).dot(dx);
-        dt.words.col(word) += k.attention.weights(i, n) * dx;
-      }
+                            Tables& dt) const;
+};
+
+// What follows is not inline, so that `extern template struct Agent<float>` spares its users the
+// work of compiling it (see rl/actor.hpp).
+
+template <std::floating_point S>
+typename Agent<S>::Params Agent<S>::make_params() const {
+  const Config& c = config;
+  Params p;
+  VisualEncoder<S>::resize(p.visual, c.channels);
+  p.words.resize(c.word_size, babyai::kVocabularySize);
+  if (c.attention) Attention::resize(p.attention, c.key_size, c.word_size, c.channels);
+  Memory::resize(p.memory, grid::kViewCells * c.channels, c.memory_size);
+  nn::Gru<S>::resize(p.text, c.word_size, c.text_size);
+  if (c.task_attention) {
+    nn::Linear<S>::resize(p.task.hidden, c.word_size + c.clauses, c.task_size);
+    nn::Linear<S>::resize(p.task.output, c.task_size, c.task_words);
+  }
+  Head<S>::resize(p.actor, c.memory_size + c.text_size, c.head_size, grid::kActions);
+  Head<S>::resize(p.critic, c.memory_size + c.text_size, c.head_size, 1);
+  nn::set_zero(p);
+  return p;
+}
+
+template <std::floating_point S>
+typename Agent<S>::Tables Agent<S>::make_tables() const {
+  const Config& c = config;
+  Tables t;
+  t.visual.setZero(c.channels, alphabet.size());
+  if (c.attention) t.attention.resize(c.key_size, babyai::kVocabularySize, alphabet.size());
+  t.input.setZero(4 * c.memory_size, grid::kViewCells * alphabet.size());
+  t.text.setZero(3 * c.text_size, babyai::kVocabularySize);
+  t.words.setZero(c.word_size, babyai::kVocabularySize);
+  return t;
+}
+
+template <std::floating_point S>
+void Agent<S>::update_tables(const Params& p, Tables& t) const {
+  VisualEncoder<S>::forward(p.visual, alphabet, leak(), t.visual);
+  if (config.attention) Attention::make_tables(p.attention, p.words, t.visual, t.attention);
+  TextEncoder<S>::make_table(p.text, p.words, t.text);
+}
+
+template <std::floating_point S>
+void Agent<S>::update_input_table(const Params& p, Index from, Index to, Tables& t) const {
+  FilteredInput<S>::make_table(p.memory.input_weight, t.visual, from, to, t.input);
+}
+
+template <std::floating_point S>
+void Agent<S>::input_table_backward(const Params& p, const Tables& t, const Tables& dt, Index from,
+                                    Index to, Params& grads, Out<S> dvisual) const {
+  FilteredInput<S>::table_backward(p.memory.input_weight, t.visual, dt.input, from, to,
+                                   grads.memory.input_weight, dvisual);
+}
+
+template <std::floating_point S>
+void Agent<S>::tables_backward(const Params& p, const Tables& t, Tables& dt, Params& grads) const {
+  TextEncoder<S>::table_backward(p.text, p.words, dt.text, grads.text, grads.words);
+  if (config.attention) {
+    Attention::tables_backward(p.attention, p.words, t.visual, t.attention, dt.attention,
+                               grads.attention, grads.words, dt.visual);
+  }
+  grads.words += dt.words;
+  VisualEncoder<S>::backward(alphabet, leak(), t.visual, dt.visual, grads.visual);
+}
+
+template <std::floating_point S>
+void Agent<S>::set_zero(Tables& t) {
+  t.visual.setZero();
+  t.attention.scores.setZero();
+  t.input.setZero();
+  t.text.setZero();
+  t.words.setZero();
+}
+
+template <std::floating_point S>
+void Agent<S>::encode_missions(const Params& p, const Tables& t, const Missions& missions,
+                               Cache& k) const {
+  TextEncoder<S>::forward(p.text, t.text, missions, k.text);
+}
+
+template <std::floating_point S>
+void Agent<S>::forward(const Params& p, const Tables& t, const Frames<S>& x,
+                       const Missions& missions, In<S> text, Cache& k) const {
+  fit(x.shape, missions.longest, k);
+  const Index hidden = config.memory_size;
+  if (config.attention) {
+    Attention::forward_words(t.attention, x.cells, missions, x.mission_of, sharpness(),
+                             k.attention);
+    if (config.task_attention) {
+      weigh_words(p, missions, x, k);
+      TaskAttention<S>::forward(p.task, k.task);
+      const Index words = std::min(k.alpha.rows(), k.task.alpha.rows());
+      k.alpha.topRows(words) = k.task.alpha.topRows(words);
+    }
+    Attention::forward_gaze(missions, x.mission_of, k.alpha, static_cast<S>(config.gaze_exponent),
+                            k.attention);
+  }
+  FilteredInput<S>::forward(t.input, x.cells, scale(k), k.memory.gates);
+  Memory::forward(p.memory, x.shape, x.keep, x.start, k.memory);
+  k.features.topRows(hidden) = k.memory.h;
+  for (Index n = 0; n < x.shape.columns(); ++n) {
+    k.features.col(n).tail(config.text_size) = text.col(x.mission_of[static_cast<std::size_t>(n)]);
+  }
+  Head<S>::forward(p.actor, k.features, k.actor);
+  Head<S>::forward(p.critic, k.features, k.critic);
+}
+
+template <std::floating_point S>
+void Agent<S>::backward(const Params& p, const Tables& t, const Frames<S>& x,
+                        const Missions& missions, In<S> dlogits, In<S> dvalues, Cache& k,
+                        Params& grads, Tables& dt) const {
+  const Index hidden = config.memory_size;
+  k.dfeatures.setZero();
+  Head<S>::backward(p.critic, k.features, dvalues, k.critic, grads.critic, k.dfeatures);
+  Head<S>::backward(p.actor, k.features, dlogits, k.actor, grads.actor, k.dfeatures);
+  k.text.dtext.setZero();
+  for (Index n = 0; n < x.shape.columns(); ++n) {
+    k.text.dtext.col(x.mission_of[static_cast<std::size_t>(n)]) +=
+        k.dfeatures.col(n).tail(config.text_size);
+  }
+  TextEncoder<S>::backward(p.text, missions, k.text, grads.text, dt.text);
+  Memory::backward(p.memory, x.shape, x.keep, k.dfeatures.topRows(hidden), k.memory, grads.memory);
+  FilteredInput<S>::backward(t.input, x.cells, scale(k), k.memory.dgates, dt.input, k.dscale);
+  if (!config.attention) return;
+  Attention::backward_gaze(missions, x.mission_of, k.alpha, static_cast<S>(config.gaze_exponent),
+                           k.dscale, k.attention, k.dalpha);
+  if (config.task_attention) {
+    TaskAttention<S>::backward(p.task, k.dalpha, k.task, grads.task);
+    weigh_words_backward(p, missions, x, k, dt);
+  }
+  Attention::backward_words(missions, x.mission_of, k.alpha, sharpness(), k.attention,
+                            dt.attention.scores);
+}
+
+template <std::floating_point S>
+void Agent<S>::fit(nn::SequenceShape shape, Index longest, Cache& k) const {
+  // Whole packets a column, so that what is rounded how does not depend on earlier batches.
+  const Index words = std::max<Index>((longest + 15) / 16 * 16, k.alpha.rows());
+  if (shape == k.shape && words == k.alpha.rows()) return;
+  require(!config.task_attention || longest <= config.task_words,
+          "agent: a mission has {} words, the Task Attention Module takes {}; raise "
+          "model.task_words",
+          longest, config.task_words);
+  const Index frames = shape.columns(), codes = alphabet.size();
+  k.shape = shape;
+  if (config.attention) k.attention.resize(codes, frames, words);
+  if (config.task_attention) {
+    k.task.resize(config.word_size + config.clauses, config.task_size, config.task_words, frames);
+  }
+  k.memory.resize(config.memory_size, shape);
+  k.actor.resize(config.head_size, grid::kActions, frames);
+  k.critic.resize(config.head_size, 1, frames);
+  k.alpha.setOnes(words, frames);
+  k.dalpha.setZero(config.task_attention ? config.task_words : words, frames);
+  k.scale.setOnes(codes, frames);
+  k.dscale.setZero(codes, frames);
+  for (auto* m : {&k.features, &k.dfeatures}) {
+    m->setZero(config.memory_size + config.text_size, frames);
+  }
+}
+
+template <std::floating_point S>
+void Agent<S>::weigh_words(const Params& p, const Missions& missions, const Frames<S>& x,
+                           Cache& k) const {
+  k.task.x.topRows(config.word_size).setZero();
+  k.task.x.bottomRows(config.clauses) = x.completion;
+  for (Index n = 0; n < x.shape.columns(); ++n) {
+    const auto& sentence = missions[x.mission_of[static_cast<std::size_t>(n)]];
+    for (Index i = 0; i < sentence.length; ++i) {
+      k.task.x.col(n).head(config.word_size) +=
+          k.attention.weights(i, n) * p.words.col(sentence.words[static_cast<std::size_t>(i)]);
     }
   }
-};
+}
+
+template <std::floating_point S>
+void Agent<S>::weigh_words_backward(const Params& p, const Missions& missions, const Frames<S>& x,
+                                    Cache& k, Tables& dt) const {
+  for (Index n = 0; n < x.shape.columns(); ++n) {
+    const auto& sentence = missions[x.mission_of[static_cast<std::size_t>(n)]];
+    const auto dx = k.task.dx.col(n).head(config.word_size);
+    for (Index i = 0; i < sentence.length; ++i) {
+      const Index word = sentence.words[static_cast<std::size_t>(i)];
+      k.attention.dweights(i, n) += p.words.col(word).dot(dx);
+      dt.words.col(word) += k.attention.weights(i, n) * dx;
+    }
+  }
+}
 
 }  // namespace wordgaze::model

@@ -19,8 +19,9 @@ struct Config {
   int clauses = 4;              ///< length of the completion vector c_t
   double entropy_base = 49;     ///< base of the logarithm in the row entropies H (eq. 2)
   double gaze_exponent = 2;     ///< p in s(M) = (M / max M)^p
-  double object_prior = 2;  ///< initial score of every word on objects over other cells; 0: none
-  double object_prior_bias = 1;  ///< initial bias of the visual encoder: near-linear at the start
+  double object_prior = 2;    ///< initial score of every word on objects over other cells; 0: none
+  double encoder_bias = 1;    ///< initial bias of the visual encoder: near-linear at the start
+  double encoder_leak = 0.1;  ///< slope of its leaky ReLU below zero; 0: plain ReLU
 
   static constexpr auto settings() {
     using C = Config;
@@ -43,8 +44,10 @@ struct Config {
         Setting{"object_prior", &C::object_prior,
                 "initial score of every word on objects over other cells; 0 switches it off", 0,
                 16},
-        Setting{"object_prior_bias", &C::object_prior_bias,
+        Setting{"encoder_bias", &C::encoder_bias,
                 "initial bias of the visual encoder (1: near-linear at the start)", -4, 4},
+        Setting{"encoder_leak", &C::encoder_leak,
+                "slope of the encoder's leaky ReLU below zero; 0 is the plain ReLU", 0, 1},
     };
   }
 

@@ -57,7 +57,7 @@ typename Agent<S>::Params initialize(const Agent<S>& agent, core::Rng& rng) {
   const Config& config = agent.config;
   auto p = agent.make_params();
   fill_uniform(p.visual.weight, 0.5, rng);
-  p.visual.bias.setConstant(static_cast<S>(config.object_prior_bias));
+  p.visual.bias.setConstant(static_cast<S>(config.encoder_bias));
   fill_normal(p.words, rng);
   if (config.attention) {
     fill_scaled(p.attention.query, 1, rng);

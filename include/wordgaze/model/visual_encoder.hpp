@@ -6,9 +6,10 @@
 
 namespace wordgaze::model {
 
-/// The visual encoding O~: a 1x1 convolution with ReLU over the one-hot cells of the 7x7 view;
-/// equation (V) in docs/math.md. It keeps the map, and since it looks at one cell at a time it is a
-/// table over the alphabet.
+/// The visual encoding O~: a 1x1 convolution with leaky ReLU over the one-hot cells of the 7x7
+/// view; equation (V) in docs/math.md. Without the leak a sum of type and color can fall silent for
+/// good, and then one object of eighteen is never found (docs/reading.md). It keeps the map, and
+/// since it looks at one cell at a time it is a table over the alphabet.
 ///
 /// shapes   table [C, P]: the encoding of each of the P codes
 /// backward accumulates into grads (+=)
@@ -25,16 +26,17 @@ struct VisualEncoder {
     p.weight.resize(channels, kCellFeatures);
     p.bias.resize(channels);
   }
-  static void forward(const Params& p, const CellAlphabet& alphabet, Out<S> table) {
+  static void forward(const Params& p, const CellAlphabet& alphabet, S leak, Out<S> table) {
     for (int k = 0; k < alphabet.size(); ++k) {
       const auto [type, color, state] = features(alphabet[k]);
-      table.col(k) =
-          (p.bias + p.weight.col(type) + p.weight.col(color) + p.weight.col(state)).cwiseMax(S(0));
+      table.col(k) = p.bias + p.weight.col(type) + p.weight.col(color) + p.weight.col(state);
     }
+    table = table.cwiseMax(leak * table);
   }
-  /// dtable is overwritten with the gradient before the ReLU.
-  static void backward(const CellAlphabet& alphabet, In<S> table, Out<S> dtable, Params& grads) {
-    dtable.array() *= (table.array() > S(0)).template cast<S>();
+  /// dtable is overwritten with the gradient before the leaky ReLU.
+  static void backward(const CellAlphabet& alphabet, S leak, In<S> table, Out<S> dtable,
+                       Params& grads) {
+    dtable = (table.array() > S(0)).select(dtable, leak * dtable);
     for (int k = 0; k < alphabet.size(); ++k) {
       for (const int row : features(alphabet[k])) grads.weight.col(row) += dtable.col(k);
       grads.bias += dtable.col(k);

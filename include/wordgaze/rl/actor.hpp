@@ -2,6 +2,9 @@
 #include "wordgaze/env/environment.hpp"
 #include "wordgaze/model/agent.hpp"
 
+/// Compiled once, in src/model/agent.cpp.
+extern template struct wordgaze::model::Agent<float>;
+
 namespace wordgaze::rl {
 
 using Agent = model::Agent<float>;
