@@ -4,7 +4,8 @@
     id seed outcome actions
 
 The outcome is success, failure, time_up, finished (the bot has nothing left to do, the episode goes
-on) or gave_up (it raised, or planned without end). The actions are the letters of LETTERS.
+on), gave_up (it raised, or planned without end) or cut (by --steps). The actions are the letters of
+LETTERS; a capital stands for what was done although the bot had said otherwise.
 """
 import argparse
 import contextlib
@@ -24,13 +25,13 @@ LETTERS = "lrfpdtx"  # left, right, forward, pickup, drop, toggle, done
 gym.logger.min_level = gym.logger.ERROR
 
 
-def play(env, seed):
+def play(env, seed, meddle, steps):
     """The outcome of an episode, and the letters of its actions."""
     env.reset(seed=seed)
     letters, action = "", None
     bot = BabyAIBot(env.unwrapped)
     bot.stack = BoundedStack(bot.stack)
-    while True:
+    while len(letters) < steps:
         try:
             bot.stack.looks = 0
             action = Actions(bot.replan(action))
@@ -38,12 +39,18 @@ def play(env, seed):
             return "gave_up", letters
         if action == Actions.done:
             return "finished", letters
-        letters += LETTERS[action]
+        letter = LETTERS[action]
+        if meddle and len(letters) % meddle == meddle - 1:
+            # Any action but this one and done.
+            action = Actions((action + 1 + (seed + len(letters)) % 5) % 6)
+            letter = LETTERS[action].upper()
+        letters += letter
         _, reward, terminated, truncated, _ = env.step(action)
         if terminated:
             return ("success" if reward > 0 else "failure"), letters
         if truncated:
             return "time_up", letters
+    return "cut", letters
 
 
 def main():
@@ -51,6 +58,9 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--env", help="ids, separated by commas (default: all of BabyAI)")
     parser.add_argument("--seeds", default="0:20", help="A:B, the seeds A to B - 1")
+    parser.add_argument("--meddle", type=int, metavar="N",
+                        help="do something else than the bot says at every N-th action")
+    parser.add_argument("--steps", type=int, default=10**6, help="at most, in an episode")
     arguments = parser.parse_args()
     first, end = map(int, arguments.seeds.split(":"))
     ids = arguments.env.split(",") if arguments.env else [
@@ -60,7 +70,7 @@ def main():
         env = gym.make(env_id, disable_env_checker=True)
         for seed in range(first, end):
             with contextlib.redirect_stdout(io.StringIO()):
-                outcome, letters = play(env, seed)
+                outcome, letters = play(env, seed, arguments.meddle, arguments.steps)
             print(env_id, seed, outcome, letters, flush=True)
 
 
