@@ -1,0 +1,150 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "programs/tiny_run.hpp"
+#include "support/messages.hpp"
+#if WORDGAZE_WITH_LCM
+#include <algorithm>
+#include <lcm/lcm-cpp.hpp>
+#include <map>
+
+#include "wordgaze/env/environment.hpp"
+#include "wordgaze/lcm/decode.hpp"
+#endif
+
+namespace wordgaze {
+namespace {
+
+#if WORDGAZE_WITH_LCM
+template <class Message>
+Message decoded(const lcm::LogEvent& event) {
+  return lcm_io::decode<Message>(
+      {static_cast<const std::uint8_t*>(event.data), static_cast<std::size_t>(event.datalen)});
+}
+#endif
+
+/// One trained agent for all tests: ckpt in the folder.
+struct Eval : ::testing::Test {
+  Shell run;
+  Eval() {
+    write_tiny_config(run);
+    run("train --config tiny.toml --out a && mv a/checkpoint.safetensors ckpt");
+  }
+};
+
+TEST_F(Eval, ReportsEverySetting) {
+  const Shell::Result evaluated =
+      run("eval --checkpoint ckpt --rooms 6,8 --objects 2,4 --episodes 10 --json e.json");
+  ASSERT_TRUE(succeeded(evaluated));
+  EXPECT_TRUE(contains(evaluated.out, "Wordgaze-One-N6-K2-v0"));
+  const auto report = nlohmann::json::parse(run.read("e.json"));
+  EXPECT_EQ(report.at("checkpoint"), "ckpt");
+  ASSERT_EQ(report.at("settings").size(), 2u * 2u * 2u);
+  for (const auto& setting : report["settings"]) {
+    EXPECT_EQ(setting.at("episodes"), 10);
+    EXPECT_TRUE(setting.at("policy") == "greedy" || setting.at("policy") == "sampled");
+    EXPECT_LE(setting.at("success_ci95")[0], setting.at("success_rate"));
+    EXPECT_GE(setting.at("success_ci95")[1], setting.at("success_rate"));
+    const double successes = setting.at("success_rate").get<double>() * 10;
+    EXPECT_NEAR(
+        successes + setting.at("done_wrong").get<int>() + setting.at("truncated").get<int>(), 10,
+        1e-9);
+    for (const char* key : {"env", "room", "objects", "mean_reward", "mean_steps"}) {
+      EXPECT_TRUE(setting.contains(key)) << key;
+    }
+  }
+}
+
+TEST_F(Eval, RepeatsItselfForAnyNumberOfThreads) {
+  ASSERT_TRUE(succeeded(run("eval --checkpoint ckpt --episodes 50 --threads 1 --json 1.json")));
+  ASSERT_TRUE(succeeded(run("eval --checkpoint ckpt --episodes 50 --threads 2 --json 2.json")));
+  EXPECT_TRUE(succeeded(run("cmp 1.json 2.json")));
+}
+
+TEST_F(Eval, TakesOnePolicyOrTheOther) {
+  const std::string table = run("eval --checkpoint ckpt --episodes 2 --greedy").out;
+  EXPECT_TRUE(contains(table, "greedy"));
+  EXPECT_EQ(table.find("sampled"), std::string::npos);
+}
+
+TEST_F(Eval, DrawsPictures) {
+  ASSERT_TRUE(succeeded(run("eval --checkpoint ckpt --episodes 2 --pictures p")));
+  EXPECT_TRUE(succeeded(run("ls p/*.png && head -c 4 $(ls p/*.png | head -1) | grep -q PNG")));
+}
+
+TEST_F(Eval, RefusesMissingDamagedAndForeignCheckpoints) {
+  EXPECT_TRUE(refused(run("eval --checkpoint nothing"), "nothing", "No such file or directory"));
+  for (const std::string& damage : kDamages) {
+    run("cp ckpt bad.safetensors; " + damage);
+    EXPECT_TRUE(refused(run("eval --checkpoint bad.safetensors"), "bad.safetensors")) << damage;
+  }
+}
+
+TEST_F(Eval, RefusesUnknownEnvironments) {
+  EXPECT_TRUE(refused(run("eval --checkpoint ckpt --env BabyAI-GoToLokal-v0"),
+                      "BabyAI-GoToLokal-v0", "BabyAI-GoToLocal-v0"));
+  EXPECT_TRUE(refused(run("eval --checkpoint ckpt --env BabyAI-GoToLocal-v0 --rooms 8"), "--rooms",
+                      "BabyAI-GoToLocal-v0"));
+}
+
+TEST_F(Eval, RefusesARoomTooSmallForItsObjects) {
+  EXPECT_TRUE(refused(run("eval --checkpoint ckpt --rooms 5 --objects 18"), "18"));
+}
+
+TEST_F(Eval, RefusesNumbersThatAreNone) {
+  EXPECT_TRUE(refused(run("eval --checkpoint ckpt --episodes 0"), "--episodes"));
+  EXPECT_TRUE(refused(run("eval --checkpoint ckpt --rooms eight"), "--rooms", "eight"));
+}
+
+TEST_F(Eval, RefusesPlacesThatCannotBeWritten) {
+  EXPECT_TRUE(refused(run("eval --checkpoint ckpt --episodes 1 --json no/folder/e.json"),
+                      "no/folder/e.json"));
+  EXPECT_TRUE(refused(run("eval --checkpoint ckpt --episodes 1 --json /dev/full"), "/dev/full",
+                      "No space left on device"));
+  EXPECT_TRUE(refused(run("eval --checkpoint ckpt --episodes 1 --pictures ckpt"), "ckpt"));
+}
+
+#if WORDGAZE_WITH_LCM
+TEST_F(Eval, LogsWhatHappenedAndWhatWasSeen) {
+  ASSERT_TRUE(succeeded(
+      run("eval --checkpoint ckpt --episodes 20 --sample --seed 500 --lcm-log e.lcmlog")));
+  lcm::LogFile log((run.folder() / "e.lcmlog").string(), "r");
+  ASSERT_TRUE(log.good());
+  std::map<std::int64_t, env::Environment> worlds;
+  int ended = 0;
+  while (const lcm::LogEvent* event = log.readNextEvent()) {
+    if (event->channel == "WORDGAZE_EPISODE_BEGIN") {
+      const auto begin = decoded<episode_begin_t>(*event);
+      env::Environment world(begin.env_id);
+      world.reset(static_cast<std::uint64_t>(begin.seed));
+      EXPECT_EQ(begin.mission, world.mission());
+      EXPECT_TRUE(worlds.emplace(begin.episode_id, std::move(world)).second);
+    } else if (event->channel == "WORDGAZE_STEP") {
+      const auto step = decoded<step_t>(*event);
+      env::Environment& world = worlds.at(step.episode_id);
+      EXPECT_EQ(step.step, world.step_count());
+      std::array<std::uint8_t, grid::kImageBytes> image;
+      world.observe(image);
+      ASSERT_TRUE(std::ranges::equal(image, step.image)) << step.episode_id << ' ' << step.step;
+      EXPECT_EQ(step.direction, world.direction());
+      const auto transition = world.step(static_cast<grid::Action>(step.action));
+      EXPECT_EQ(step.reward, static_cast<float>(transition.reward));
+      EXPECT_EQ(step.terminated, transition.terminated);
+      EXPECT_EQ(step.truncated, transition.truncated);
+    } else if (event->channel == "WORDGAZE_EPISODE_END") {
+      const auto end = decoded<episode_end_t>(*event);
+      EXPECT_EQ(end.num_steps, worlds.at(end.episode_id).step_count());
+      ++ended;
+    }
+  }
+  EXPECT_EQ(ended, 20);
+}
+#else
+TEST_F(Eval, SaysThatItWasBuiltWithoutLcm) {
+  EXPECT_TRUE(refused(run("eval --checkpoint ckpt --lcm-log e.lcmlog"), "without LCM"));
+}
+#endif
+
+}  // namespace
+}  // namespace wordgaze
