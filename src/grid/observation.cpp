@@ -16,7 +16,6 @@ constexpr unsigned kRow = (1u << kViewSize) - 1;
 
 // One bit for each cell of the view: bit 8 x + y, so that a column of the image is a byte.
 using Bits = std::uint64_t;
-constexpr int bit_of(int x, int y) { return 8 * x + y; }
 
 // Exchanges rows and columns of 8 x 8 bits, block by block.
 constexpr Bits transposed(Bits bits) {
@@ -55,46 +54,40 @@ struct View {
     const std::ptrdiff_t ahead = d.x + d.y * stride;
     const std::ptrdiff_t aside = -d.y + d.x * stride;
     const ObjectId* column = world.grid.pointer(world.agent) - kCenter * aside + kLast * ahead;
-    ObjectId* out = ids.data();
+    const ObjectSet blockers = world.sight_blockers;
     for (int x = 0; x < kViewSize; ++x, column += aside) {
-      for (int y = 0; y < kViewSize; ++y) {
+      Bits blocked_column = 0;
+      for (int y = kLast; y >= 0; --y) {
         const ObjectId id = column[-y * ahead];
-        *out++ = id;
-        blocked |= (world.sight_blockers >> id & 1) << bit_of(x, y);
+        ids[x * kViewSize + y] = id;
+        blocked_column = 2 * blocked_column + (blockers >> id & 1);
       }
+      blocked |= blocked_column << 8 * x;
     }
   }
 
   // The reference sweeps each row to the right and back, lighting neighbors in this row and the
   // next as it goes; kSpread is what comes of it.
-  VisibleRows visible_rows() const {
-    const Bits blocked_rows = transposed(blocked);
-    VisibleRows visible{};
+  Bits visible() const {
+    const Bits clear_rows = transposed(~blocked);
+    Bits visible_rows = 0;
     unsigned lit = 1u << kCenter;
     for (int y = kLast; y >= 0; --y) {
-      const unsigned clear = ~(blocked_rows >> 8 * y) & kRow;
-      const unsigned spread = kSpread[clear][lit];
-      visible[y] = static_cast<std::uint8_t>(lit | spread);
+      const unsigned spread = kSpread[clear_rows >> 8 * y & kRow][lit];
+      visible_rows = visible_rows << 8 | lit | spread;
       lit = spread;
     }
-    return visible;
-  }
-
-  Bits visible() const {
-    Bits rows = 0;
-    const VisibleRows visible = visible_rows();
-    std::memcpy(&rows, visible.data(), sizeof visible);
-    return transposed(rows);
+    return transposed(visible_rows);
   }
 };
 
 }  // namespace
 
 VisibleRows visible_cells(const World& world) {
-  if (!world.see_through_walls) return View(world).visible_rows();
-  VisibleRows all;
-  all.fill(kRow);
-  return all;
+  VisibleRows rows;
+  const Bits visible = transposed(world.see_through_walls ? ~Bits{0} : View(world).visible());
+  for (int y = 0; y < kViewSize; ++y) rows[y] = static_cast<std::uint8_t>(visible >> 8 * y & kRow);
+  return rows;
 }
 
 void observe(const World& world, ImageView image) {
@@ -103,20 +96,22 @@ void observe(const World& world, ImageView image) {
   // The agent sees what it carries in its own cell, whatever it stands on.
   view.ids[kCenter * kViewSize + kLast] = world.carried;
   const Object* objects = world.objects.data();
-  const ObjectId* id = view.ids.data();
-  std::array<std::uint8_t, kImageBytes + 1> codes;
-  std::uint8_t* out = codes.data();
-  for (int x = 0; x < kViewSize; ++x) {
-    for (int y = 0; y < kViewSize; ++y, ++id, out += 3) {
-      const auto seen = -static_cast<std::uint32_t>(visible >> bit_of(x, y) & 1);
+  // Four bytes at a time, the fourth to be overwritten by the next cell.
+  const auto write_column = [&](int x, std::uint8_t* out) {
+    const auto seen = static_cast<std::uint32_t>(visible >> 8 * x);
+    for (int y = 0; y < kViewSize; ++y) {
       std::uint32_t code;
-      std::memcpy(&code, &objects[*id], sizeof code);
-      code &= seen;
-      // Four bytes at a time: the next cell overwrites the fourth.
-      std::memcpy(out, &code, sizeof code);
+      std::memcpy(&code, &objects[view.ids[x * kViewSize + y]], sizeof code);
+      code = (seen & 1u << y) != 0 ? code : 0;
+      std::memcpy(out + 3 * y, &code, sizeof code);
     }
-  }
-  std::memcpy(image.data(), codes.data(), kImageBytes);
+  };
+  constexpr int kColumnBytes = 3 * kViewSize;
+  for (int x = 0; x < kLast; ++x) write_column(x, image.data() + kColumnBytes * x);
+  // Nothing may be written behind the last cell.
+  std::array<std::uint8_t, kColumnBytes + 1> last;
+  write_column(kLast, last.data());
+  std::memcpy(image.data() + kColumnBytes * kLast, last.data(), kColumnBytes);
 }
 
 }  // namespace wordgaze::grid

@@ -39,8 +39,10 @@ class Builder {
   template <class Items>
   void pick_to_front(Items&& items, int count) {
     for (int i = 0; i < count; ++i) {
-      const auto drawn = items.begin() + between(i, static_cast<int>(items.size()));
-      std::rotate(items.begin() + i, drawn, drawn + 1);
+      const int index = between(i, static_cast<int>(items.size()));
+      const auto drawn = items[index];
+      for (int k = index; k > i; --k) items[k] = items[k - 1];
+      items[i] = drawn;
     }
   }
 
