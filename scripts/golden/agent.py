@@ -19,7 +19,7 @@ TYPES, COLORS, STATES, VIEW, ACTIONS, VOCABULARY = 11, 6, 3, 7, 7, 55
 SIZES = {"channels": 3, "word_size": 4, "key_size": 3, "memory_size": 3, "text_size": 3,
          "head_size": 4, "task_size": 5, "task_words": 13, "clauses": 2}
 VARIANTS = {
-    "baseline": {"attention": False},
+    "baseline": {"attention": False, "encoder_leak": 0},
     "attention_p1": {"attention": True, "gaze_exponent": 1, "entropy_base": math.e},
     "attention_p2": {"attention": True, "gaze_exponent": 2, "entropy_base": 49},
     "task_attention": {"attention": True, "task_attention": True, "gaze_exponent": 2,
@@ -57,8 +57,6 @@ def random_parameters(choice, config):
     # Large scores: maps that differ, and word weights with them.
     parameters = {name: gaussian(choice, *shape, scale=1.6 if name.startswith("attention") else 0.6)
                   for name, shape in shapes.items()}
-    # Encodings away from zero, or the ReLU would leave little to see.
-    parameters["visual.bias"] = [round(b + 0.7, 3) for b in parameters["visual.bias"]]
     return parameters
 
 
@@ -122,7 +120,8 @@ def run_lane(p, config, frames, h, c):
         h, c = h * frame["keep"], c * frame["keep"]
         mission = MISSIONS[frame["mission"]]
         view = F.conv2d(one_hot(frame["image"]), p["visual.weight"][:, :, None, None],
-                        p["visual.bias"]).relu().flatten(2)[0]
+                        p["visual.bias"]).flatten(2)[0]
+        view = F.leaky_relu(view, config["encoder_leak"])
         filtered, seen = filter_view(p, config, view, mission, frame["completion"])
         h, c = (s[0] for s in torch.lstm_cell(
             filtered.T.reshape(1, -1), (h[None], c[None]), p["memory.input_weight"],
@@ -142,7 +141,8 @@ def numbers(value):
 
 
 def make(name, variant):
-    config = SIZES | {"task_attention": False, "gaze_exponent": 2, "entropy_base": 49} | variant
+    config = SIZES | {"task_attention": False, "gaze_exponent": 2, "entropy_base": 49,
+                      "encoder_leak": 0.1} | variant
     choice = random.Random(f"{SEED} {name}")
     given = random_parameters(choice, config)
     frames = [random_frame(choice, config, t, b) for t in range(STEPS) for b in range(LANES)]
