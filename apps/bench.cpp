@@ -1,0 +1,178 @@
+// bench: how fast the simulator, training and a single decision are on this machine. The last line
+// of the output is one JSON object.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "wordgaze/env/vector_env.hpp"
+#include "wordgaze/io/config_file.hpp"
+#include "wordgaze/nn/categorical.hpp"
+#include "wordgaze/rl/alphabet.hpp"
+#include "wordgaze/rl/trainer.hpp"
+
+namespace {
+
+using namespace wordgaze;
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+  std::string sim, train, act;
+  int envs = 256, threads = 1;
+  double seconds = 3;
+  std::int64_t frames = 200'000;
+};
+
+Arguments parse(int argc, char** argv) {
+  Arguments a;
+  CLI::App app{"Measures rates. Rates per CPU second do not suffer from a shared machine."};
+  auto* what = app.add_option_group("what to measure");
+  what->add_option("--sim", a.sim, "environment id: steps with random actions, views and resets");
+  what->add_option("--train", a.train, "TOML file: the whole training loop");
+  what->add_option("--act", a.act, "TOML file: one decision for one robot");
+  what->require_option(1);
+  app.add_option("--envs", a.envs, "environments of --sim")->check(CLI::Range(1, 10'000'000));
+  app.add_option("--seconds", a.seconds, "at least, of --sim and --act")
+      ->check(CLI::Range(0.01, 3600.0));
+  app.add_option("--frames", a.frames, "of --train")->check(CLI::Range(1, 1'000'000'000));
+  app.add_option("--threads", a.threads, "workers")->check(CLI::Range(1, 256));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    std::exit(app.exit(error));
+  }
+  return a;
+}
+
+/// Wall and CPU time (of all threads) since its making.
+class Stopwatch {
+ public:
+  double wall() const { return now(CLOCK_MONOTONIC) - wall_; }
+  double cpu() const { return now(CLOCK_PROCESS_CPUTIME_ID) - cpu_; }
+
+ private:
+  static double now(clockid_t clock) {
+    timespec t{};
+    clock_gettime(clock, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+  }
+  double wall_ = now(CLOCK_MONOTONIC), cpu_ = now(CLOCK_PROCESS_CPUTIME_ID);
+};
+
+void report(const char* unit, double count, const Stopwatch& watch, Json& json) {
+  json[unit] = count;
+  json["cpu_seconds"] = watch.cpu();
+  json["wall_seconds"] = watch.wall();
+  fmt::print("{:.4g} {} per CPU second, {:.4g} per second\n", count / watch.cpu(), unit,
+             count / watch.wall());
+}
+
+Json simulate(const Arguments& a) {
+  const auto level = babyai::find_level(a.sim);
+  Team team(a.threads);
+  env::VectorEnv batch(level, a.envs, team);
+  const auto size = static_cast<std::size_t>(a.envs);
+  std::vector<std::uint8_t> images(size * grid::kImageBytes), directions(size);
+  std::vector<std::uint8_t> terminated(size), truncated(size);
+  std::vector<double> rewards(size);
+  const env::BatchOutput out{.images = images,
+                             .directions = directions,
+                             .rewards = rewards,
+                             .terminated = terminated,
+                             .truncated = truncated,
+                             .final_images = {},
+                             .final_directions = {}};
+  // Actions are drawn before the clock runs: their cost is nobody's.
+  core::Rng rng(1);
+  std::vector<grid::Action> actions(size + 4096);
+  for (auto& action : actions) action = static_cast<grid::Action>(rng.below(level.actions));
+  batch.reset(0, out);
+
+  const Stopwatch watch;
+  std::int64_t steps = 0;
+  while (watch.wall() < a.seconds) {
+    for (int k = 0; k < 16; ++k) {
+      const auto offset = static_cast<std::size_t>(rng.below(4096));
+      batch.step(std::span(actions).subspan(offset, size), out);
+    }
+    steps += 16 * std::int64_t{a.envs};
+  }
+  Json json{{"bench", "sim"}, {"env", a.sim}, {"envs", a.envs}, {"threads", a.threads}};
+  std::int64_t resets = 0;
+  for (int k = 0; k < a.envs; ++k) resets += batch.statistics(k).episodes;
+  json["resets"] = resets;
+  report("steps", static_cast<double>(steps), watch, json);
+  return json;
+}
+
+Json train(const Arguments& a) {
+  auto config = io::read_config<rl::TrainConfig>(a.train);
+  config.threads = a.threads;
+  config.frames = std::max(config.frames, a.frames);  // the schedules of a whole run
+  rl::Trainer trainer(config);
+  trainer.update();  // sizes every cache
+  const std::int64_t before = trainer.frames();
+  const Stopwatch watch;
+  while (trainer.frames() - before < a.frames) trainer.update();
+  Json json{{"bench", "train"}, {"config", a.train}, {"threads", a.threads}};
+  report("frames", static_cast<double>(trainer.frames() - before), watch, json);
+  return json;
+}
+
+Json act(const Arguments& a) {
+  using Choice = nn::Categorical<float>;
+  const auto config = io::read_config<rl::TrainConfig>(a.act);
+  const auto level = babyai::find_level(config.env);
+  const rl::Trainer trainer(config);
+  const rl::Agent& agent = trainer.agent();
+  auto tables = agent.make_tables();
+  agent.update_all_tables(trainer.params(), tables);
+  env::Environment environment(level);
+  rl::Actor actor(agent, 1);
+  core::Rng rng(1);
+  environment.reset(0);
+  actor.begin(0, environment.sentence());
+  std::vector<double> micros;
+  const Stopwatch watch;
+  while (watch.wall() < a.seconds) {
+    const auto begin = std::chrono::steady_clock::now();
+    actor.observe(0, environment);
+    actor.decide(trainer.params(), tables);
+    std::array<float, grid::kActions> log_p;
+    Choice::log_softmax({actor.cache().logits().data(), grid::kActions}, log_p);
+    const auto action = Choice::sample(log_p, static_cast<float>(rng.uniform()));
+    actor.advance();
+    const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - begin;
+    micros.push_back(time.count());
+    const auto transition = environment.step(static_cast<grid::Action>(action));
+    if (transition.terminated || transition.truncated) {
+      environment.reset();
+      actor.begin(0, environment.sentence());
+    }
+  }
+  std::sort(micros.begin(), micros.end());
+  const auto quantile = [&](double q) {
+    return micros[static_cast<std::size_t>(q * static_cast<double>(micros.size() - 1))];
+  };
+  Json json{{"bench", "act"},
+            {"config", a.act},
+            {"median_us", quantile(0.5)},
+            {"p99_us", quantile(0.99)}};
+  report("decisions", static_cast<double>(micros.size()), watch, json);
+  return json;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const Arguments a = parse(argc, argv);
+    const Json json = !a.sim.empty() ? simulate(a) : !a.train.empty() ? train(a) : act(a);
+    fmt::print("{}\n", json.dump());
+    return 0;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "bench: {}\n", error.what());
+    return 1;
+  }
+}
