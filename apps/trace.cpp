@@ -7,6 +7,7 @@
 
 #include "wordgaze/babyai/level.hpp"
 #include "wordgaze/bot/policy.hpp"
+#include "wordgaze/env/level_docs.hpp"
 #include "wordgaze/env/trace.hpp"
 
 // Reads and writes traces of episodes, and compares the simulator with the reference's.
@@ -74,13 +75,18 @@ int main(int argc, char** argv) {
   app.add_option("--out", out, "Where to write ('-': standard output)")->needs(env_option);
   app.add_flag("--done-actions", options.done_actions, "The reference's done mode")
       ->needs(env_option);
-  bool list = false;
+  bool list = false, levels = false;
   app.add_flag("--list", list, "Print all known ids");
+  app.add_flag("--levels", levels, "Print the table of levels, docs/levels.md");
   CLI11_PARSE(app, argc, argv);
 
   try {
     if (list) {
       for (const std::string& id : babyai::level_ids()) fmt::print("{}\n", id);
+      return 0;
+    }
+    if (levels) {
+      env::write_level_docs(std::cout);
       return 0;
     }
     if (*replay_option) return replay(replayed);

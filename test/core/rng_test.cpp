@@ -12,9 +12,9 @@ namespace {
 using Json = nlohmann::json;
 
 // Written by scripts/golden/rng_vectors.py with NumPy.
-Json vectors() {
+std::vector<Json> cases() {
   std::ifstream file(WORDGAZE_TEST_DATA "/rng/vectors.json");
-  return Json::parse(file);
+  return Json::parse(file).at("cases");
 }
 
 Rng::State state_of(const Json& json) {
@@ -30,14 +30,14 @@ Rng::State state_of(const Json& json) {
 }
 
 TEST(Rng, IsSeededAsNumPyWithSeedsOfAnySize) {
-  for (const Json& c : vectors().at("cases")) {
+  for (const Json& c : cases()) {
     const Rng rng(Seed::parse(c.at("seed").get<std::string>()));
     EXPECT_EQ(rng.state(), state_of(c.at("seeded"))) << "seed " << c.at("seed");
   }
 }
 
 TEST(Rng, DrawsAsNumPy) {
-  for (const Json& c : vectors().at("cases")) {
+  for (const Json& c : cases()) {
     Rng rng(Seed::parse(c.at("seed").get<std::string>()));
     for (const Json& call : c.at("calls")) {
       SCOPED_TRACE("seed " + c.at("seed").get<std::string>() + ", call " + call.dump());
