@@ -139,7 +139,7 @@ int run(const Arguments& a) {
         for (std::size_t i = 0; i < row.size(); ++i) scalars.push_back({columns[i], row[i]});
         observer->on_update({trainer.updates(), trainer.frames(), scalars});
       }
-      progress.update(trainer.frames(), details(metrics));
+      progress.update(std::min(trainer.frames(), config.frames), details(metrics));
       if (trainer.updates() % config.checkpoint_every == 0) {
         io::save_checkpoint(checkpoint, config, trainer.state());
       }
