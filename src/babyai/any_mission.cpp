@@ -73,7 +73,7 @@ class MissionGenerator {
     static constexpr std::array kAll{Type::box, Type::ball, Type::key, Type::door};
     constexpr std::span<const Type> kMovable = std::span(kAll).first<3>();
     constexpr std::span<const Type> kDoor = std::span(kAll).last<1>();
-    Clause clause{.verb = layout_.pick(std::span(spec_.verbs))};
+    Clause clause{.verb = layout_.pick(spec_.verbs)};
     switch (clause.verb) {
       case Verb::go_to:
         clause.object = draw_description(kAll);

@@ -9,6 +9,10 @@ using namespace generators;
 
 constexpr int square(int n) { return n * n; }
 
+constexpr std::array kGoTo{Verb::go_to};
+constexpr std::array kPickup{Verb::pickup};
+constexpr std::array kOneClause{Form::clause};
+
 }  // namespace
 
 // What a row does not say is a maze of 3 x 3 rooms of 8 x 8 cells with BabyAI's own step limit.
@@ -46,9 +50,9 @@ std::span<const LevelSpec> level_table() {
       {.id = "BabyAI-GoToObjMazeS7-v0", .generate = go_to, .room_size = 7, .objects = 1},
       {.id = "BabyAI-GoToImpUnlock-v0", .generate = go_to_after_unlocking},
       {.id = "BabyAI-GoToSeq-v0", .generate = any_mission, .objects = 18,
-       .missions = {.locked_room = 0, .locations = false, .unblocking = false, .verbs = {Verb::go_to}}},
+       .missions = {.locked_room = 0, .locations = false, .unblocking = false, .verbs = kGoTo}},
       {.id = "BabyAI-GoToSeqS5R2-v0", .generate = any_mission, .room_size = 5, .rows = 2, .columns = 2, .objects = 4,
-       .missions = {.locked_room = 0, .locations = false, .unblocking = false, .verbs = {Verb::go_to}}},
+       .missions = {.locked_room = 0, .locations = false, .unblocking = false, .verbs = kGoTo}},
       {.id = "BabyAI-GoToRedBlueBall-v0", .generate = go_to_red_or_blue_ball, .rows = 1, .columns = 1, .objects = 7},
       {.id = "BabyAI-GoToDoor-v0", .generate = go_to_door, .room_size = 7},
       {.id = "BabyAI-GoToObjDoor-v0", .generate = go_to_object_or_door, .objects = 8},
@@ -72,7 +76,7 @@ std::span<const LevelSpec> level_table() {
       {.id = "BabyAI-Pickup-v0", .generate = pick_up, .objects = 18},
       {.id = "BabyAI-UnblockPickup-v0", .generate = unblock_and_pick_up, .objects = 20},
       {.id = "BabyAI-PickupLoc-v0", .generate = any_mission, .rows = 1, .columns = 1, .objects = 8,
-       .missions = {.locked_room = 0, .unblocking = false, .verbs = {Verb::pickup}, .forms = {Form::clause}}},
+       .missions = {.locked_room = 0, .unblocking = false, .verbs = kPickup, .forms = kOneClause}},
       {.id = "BabyAI-PickupDist-v0", .generate = pick_up_among_distractors, .room_size = 7, .rows = 1, .columns = 1, .objects = 5},
       {.id = "BabyAI-PickupDistDebug-v0", .generate = pick_up_among_distractors, .room_size = 7, .rows = 1, .columns = 1, .objects = 5, .strict = true},
       {.id = "BabyAI-PickupAbove-v0", .generate = pick_up_above, .room_size = 6, .max_steps = 8 * square(6)},
@@ -121,11 +125,11 @@ std::span<const LevelSpec> level_table() {
 
       // any mission
       {.id = "BabyAI-Synth-v0", .generate = any_mission, .objects = 18,
-       .missions = {.locations = false, .implicit_unlock = false, .forms = {Form::clause}}},
+       .missions = {.locations = false, .implicit_unlock = false, .forms = kOneClause}},
       {.id = "BabyAI-SynthS5R2-v0", .generate = any_mission, .room_size = 5, .rows = 2, .objects = 18,
-       .missions = {.locations = false, .implicit_unlock = false, .forms = {Form::clause}}},
+       .missions = {.locations = false, .implicit_unlock = false, .forms = kOneClause}},
       {.id = "BabyAI-SynthLoc-v0", .generate = any_mission, .objects = 18,
-       .missions = {.implicit_unlock = false, .forms = {Form::clause}}},
+       .missions = {.implicit_unlock = false, .forms = kOneClause}},
       {.id = "BabyAI-SynthSeq-v0", .generate = any_mission, .objects = 18, .missions = {.implicit_unlock = false}},
       {.id = "BabyAI-MiniBossLevel-v0", .generate = any_mission, .room_size = 5, .rows = 2, .columns = 2, .objects = 7,
        .missions = {.locked_room = 0.25}},

@@ -1,7 +1,6 @@
 #include "wordgaze/babyai/parser.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <initializer_list>
 #include <stdexcept>
@@ -125,9 +124,14 @@ class Parser {
   }
 
   [[noreturn]] void fail(std::initializer_list<std::string_view> expected) const {
+    std::string choice;
+    for (std::string_view word : expected) {
+      if (!choice.empty()) choice += " | ";
+      choice += word;
+    }
     const std::size_t column = end_ - word_.size();
     throw std::invalid_argument(fmt::format(
-        "mission: expected {}, found {}\n  {}\n  {:>{}}", fmt::join(expected, " | "),
+        "mission: expected {}, found {}\n  {}\n  {:>{}}", choice,
         word_.empty() ? "the end" : fmt::format("'{}'", word_), text_, '^', column + 1));
   }
 

@@ -30,6 +30,15 @@ TEST(Level, TakesItsNumbersFromTheName) {
   EXPECT_EQ(find_level("Wordgaze-One-N8-K4-auto-v0").done_mode, DoneMode::off);
 }
 
+TEST(Level, RefusesNamesThatOnlyResembleOne) {
+  for (const char* id :
+       {"Wordgaze-One-N8-K4", "Wordgaze-One-N8-K4-v0 ", "Wordgaze-One-N8-K4-v1",
+        "Wordgaze-Three-N8-K4-v0", "Wordgaze-One-N-K4-v0", "Wordgaze-One-N8-K-4-v0",
+        "Wordgaze-One-N88888-K4-v0", "Wordgaze-One-N8-K4-auto-auto-v0", ""}) {
+    EXPECT_THROW(find_level(id), std::invalid_argument) << id;
+  }
+}
+
 TEST(Level, LimitsStepsByTheAreaAndTheInstruction) {
   const LevelSpec maze = find_level("BabyAI-SynthS5R2-v0");
   const Clause go{.verb = Verb::go_to}, put{.verb = Verb::put_next};

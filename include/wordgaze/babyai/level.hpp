@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,14 +36,18 @@ enum class Rule : std::uint8_t {
 /// Shapes of the instructions that LevelGen draws.
 enum class Form : std::uint8_t { clause, both, ordered };
 
-/// What BabyAI's LevelGen may ask for. (spec 7)
+inline constexpr std::array kAllVerbs{Verb::go_to, Verb::pickup, Verb::open, Verb::put_next};
+inline constexpr std::array kAllForms{Form::clause, Form::both, Form::ordered};
+
+/// What BabyAI's LevelGen may ask for. The lists are not owned; a single entry is not drawn.
+/// (spec 7)
 struct MissionSpec {
   double locked_room = 0.5;     ///< probability that one room is locked
   bool locations = true;        ///< "on your left"
   bool unblocking = true;       ///< objects may have to be moved out of the way
   bool implicit_unlock = true;  ///< the target may be in the locked room
-  std::vector<Verb> verbs{Verb::go_to, Verb::pickup, Verb::open, Verb::put_next};
-  std::vector<Form> forms{Form::clause, Form::both, Form::ordered};
+  std::span<const Verb> verbs = kAllVerbs;
+  std::span<const Form> forms = kAllForms;
 };
 
 /// MiniGrid's ObstructedMaze. (spec 9)
