@@ -10,8 +10,6 @@ using grid::World;
 
 namespace {
 
-constexpr int kUnreached = -1;
-
 bool can_cross(const grid::Object& object, Through through) {
   switch (object.type) {
     case Type::empty:
@@ -30,7 +28,7 @@ bool can_cross(const grid::Object& object, Through through) {
 void Reach::search(const World& world, const Seen& seen) {
   width_ = world.grid.width();
   cells_.clear();
-  index_.assign(static_cast<std::size_t>(width_ * world.grid.height()), kUnreached);
+  reached_.assign(static_cast<std::size_t>(width_ * world.grid.height()), false);
   visit(world.agent, forward(world.direction), 0, 0);
   for (int k = 0; k < static_cast<int>(cells_.size()); ++k) {
     leave(world, seen, k, cells_[k].heading, Through::free_cells);
@@ -44,8 +42,9 @@ void Reach::search(const World& world, const Seen& seen) {
 }
 
 void Reach::visit(Position position, Position heading, int from, int steps) {
-  if (index(position) != kUnreached) return;
-  index(position) = static_cast<int>(cells_.size());
+  const auto cell = static_cast<std::size_t>(position.y * width_ + position.x);
+  if (reached_[cell]) return;
+  reached_[cell] = true;
   cells_.push_back({.position = position, .heading = heading, .from = from, .steps = steps});
 }
 

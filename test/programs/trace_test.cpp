@@ -23,6 +23,20 @@ TEST_F(Trace, ReplaysWhatItWrote) {
   EXPECT_NE(replayed.out.find("mismatches 0"), std::string::npos) << replayed.out;
 }
 
+TEST_F(Trace, LetsTheBotActWhoSucceeds) {
+  const Shell::Result written =
+      run("trace --env BabyAI-GoToLocal-v0 --seeds 0:1 --policy bot --steps 50 --out t.jsonl");
+  ASSERT_EQ(written.status, 0) << written.err;
+  const int ended = std::stoi(run("grep -c '\"term\":true' t.jsonl").out);
+  const int unrewarded = std::stoi(run("grep '\"term\":true' t.jsonl | grep -c '\"r\":0.0'").out);
+  EXPECT_GT(ended, 3);
+  EXPECT_EQ(unrewarded, 0);
+}
+
+TEST_F(Trace, RefusesAnUnknownPolicy) {
+  EXPECT_TRUE(refused(run("trace --env BabyAI-GoToLocal-v0 --policy clever"), "clever"));
+}
+
 TEST_F(Trace, ReplaysStandardInput) {
   write_small_trace();
   const Shell::Result replayed = run("cat t.jsonl | trace --replay -");

@@ -48,12 +48,11 @@ class Reach {
 
   void visit(grid::Position position, grid::Position heading, int from, int steps);
   void leave(const grid::World& world, const Seen& seen, int k, grid::Position heading, Through);
-  int& index(grid::Position p) { return index_[p.y * width_ + p.x]; }
 
   int width_ = 0;
-  std::vector<Cell> cells_;  // in the order of the search
-  int free_ = 0;             // so many of them are reached through free cells
-  std::vector<int> index_;   // by cell of the grid: where it is in cells_, or kUnreached
+  std::vector<Cell> cells_;    // in the order of the search
+  int free_ = 0;               // so many of them are reached through free cells
+  std::vector<bool> reached_;  // by cell of the grid
 };
 
 }  // namespace wordgaze::bot
