@@ -115,7 +115,9 @@ Interval wilson_interval(int successes, int episodes) {
   const double center = p + z * z / (2 * n);
   const double half = z * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
   const double scale = 1 / (1 + z * z / n);
-  return {std::max(0.0, (center - half) * scale), std::min(1.0, (center + half) * scale)};
+  // At the ends the bounds are 0 and 1, not what rounding makes of them.
+  return {successes == 0 ? 0 : (center - half) * scale,
+          successes == episodes ? 1 : (center + half) * scale};
 }
 
 EvaluationResult evaluate(const Agent& agent, const Agent::Params& params,

@@ -162,7 +162,8 @@ TEST(WilsonInterval, MatchesPublishedValues) {
   EXPECT_NEAR(half.high, 0.5962, 5e-5);
   const auto all = wilson_interval(100, 100);
   EXPECT_NEAR(all.low, 0.9630, 5e-5);
-  EXPECT_DOUBLE_EQ(all.high, 1);
+  EXPECT_EQ(all.high, 1);
+  EXPECT_EQ(wilson_interval(0, 100).low, 0);
 }
 
 }  // namespace

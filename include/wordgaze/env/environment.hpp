@@ -1,4 +1,5 @@
 #pragma once
+#include <concepts>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -11,6 +12,7 @@
 #include "wordgaze/babyai/sentence.hpp"
 #include "wordgaze/babyai/task.hpp"
 #include "wordgaze/babyai/verifier.hpp"
+#include "wordgaze/core/require.hpp"
 #include "wordgaze/core/rng.hpp"
 #include "wordgaze/grid/action.hpp"
 #include "wordgaze/grid/observation.hpp"
@@ -40,6 +42,13 @@ class Environment {
   /// is found within a bounded number of tries (the reference searches for ever).
   void reset(std::uint64_t seed);
   void reset(const core::Seed& seed);  ///< seeds of any size
+  /// Throws std::invalid_argument for a negative seed.
+  template <std::signed_integral Signed>
+  void reset(Signed seed) {
+    require(seed >= 0, "environment '{}': seed {}; expected a non-negative integer", id(), seed);
+    reset(static_cast<std::uint64_t>(seed));
+  }
+  void reset(std::floating_point auto seed) = delete;
   /// Starts an episode where the random stream is; from an unpredictable seed when there is none.
   void reset();
 
@@ -67,7 +76,8 @@ class Environment {
 
   const babyai::Verifier& verifier() const { return verifier_; }
 
-  /// The vector c_t: one 0/1 per clause, in the order of the sentence.
+  /// The vector c_t: one 0/1 per clause, in the order of the sentence. Empty in MiniGrid's own
+  /// levels, which have no clauses.
   std::span<const std::uint8_t> completion() const { return verifier_.completion(); }
   /// One 0/1 per clause: not completed, and its turn has come.
   std::span<const std::uint8_t> declarable() const { return verifier_.declarable(); }
@@ -93,7 +103,8 @@ class Environment {
  private:
   template <class Archive, class Env>
   static void archive(Archive& archive, Env& env);
-  void start(core::Rng rng, std::string_view seed);
+  [[nodiscard]] bool start(core::Rng rng);
+  [[noreturn]] void fail_to_start(const std::string& seed) const;
 
   std::shared_ptr<const babyai::LevelSpec> spec_;
   core::Rng rng_;

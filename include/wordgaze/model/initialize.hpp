@@ -40,7 +40,7 @@ void set_object_prior(const Config& config, typename Agent<S>::Params& p) {
   const auto is_object = [](int type) { return type >= 5 && type <= 7; };
   p.visual.weight.row(0).setZero();
   for (int type = 0; type < kTypes; ++type) {
-    p.visual.weight(0, type) = is_object(type) ? S(1) : S(-1);
+    if (is_object(type)) p.visual.weight(0, type) = 1;
   }
   p.visual.bias(0) = 0;
   p.words.row(0).setOnes();
