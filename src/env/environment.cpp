@@ -24,23 +24,29 @@ Environment::Environment(const babyai::LevelSpec& spec)
   require(spec.generate != nullptr, "level '{}' has no generator", spec.id);
 }
 
-void Environment::reset(std::uint64_t seed) { start(core::Rng(seed), std::to_string(seed)); }
+void Environment::reset(std::uint64_t seed) {
+  if (!start(core::Rng(seed))) fail_to_start(std::to_string(seed));
+}
 
-void Environment::reset(const core::Seed& seed) { start(core::Rng(seed), seed.text()); }
+void Environment::reset(const core::Seed& seed) {
+  if (!start(core::Rng(seed))) fail_to_start(seed.text());
+}
 
 void Environment::reset() {
   if (!seeded_) return reset(std::uint64_t{std::random_device{}()});
-  start(rng_, "that of the stream that was continued");
+  if (!start(rng_)) fail_to_start("that of the stream that was continued");
 }
 
-void Environment::start(core::Rng rng, std::string_view seed) {
+void Environment::fail_to_start(const std::string& seed) const {
+  throw std::runtime_error(
+      fmt::format("environment '{}': no layout found after many tries; seed: {}", spec_->id, seed));
+}
+
+bool Environment::start(core::Rng rng) {
   // Generated aside, so that a failure changes nothing; kept, so that resets do not allocate.
   thread_local grid::World world;
   thread_local babyai::Task task;
-  if (!babyai::generate(*spec_, rng, world, task)) {
-    throw std::runtime_error(fmt::format(
-        "environment '{}': no layout found after many tries; seed: {}", spec_->id, seed));
-  }
+  if (!babyai::generate(*spec_, rng, world, task)) return false;
   std::swap(world_, world);
   task_ = task;
   rng_ = rng;
@@ -51,6 +57,7 @@ void Environment::start(core::Rng rng, std::string_view seed) {
     world_.carried = task_.start_carrying;
     world_.grid[world_.object(world_.carried).position] = grid::kNothing;
   }
+  return true;
 }
 
 void Environment::observe(grid::ImageView image) const {
@@ -78,9 +85,7 @@ Transition Environment::step(Action action) {
   Transition transition{.truncated = world_.step_count >= task_.max_steps};
   if (action == Action::drop) verifier_.refresh(world_);
   const Status status = verifier_.verify(world_, task_, action);
-  if (status == Status::success) {
-    transition.reward = reward(world_, task_);
-  }
+  if (status == Status::success) transition.reward = reward(world_, task_);
   transition.terminated = status == Status::success || status == Status::failure;
   return transition;
 }

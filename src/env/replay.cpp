@@ -50,6 +50,10 @@ class Replay {
     if (seed.is_string()) {
       env_->reset(core::Seed::parse(seed.get<std::string>()));
     } else if (!seed.is_null()) {
+      if (!seed.is_number_unsigned()) {
+        throw std::runtime_error(
+            fmt::format("seed {}; expected a non-negative integer", seed.dump()));
+      }
       env_->reset(seed.get<std::uint64_t>());
     } else {
       env_->reset();
@@ -63,7 +67,11 @@ class Replay {
   void take_step(const Json& theirs) {
     if (lost_) return;
     if (!env_) throw std::runtime_error("a step before the first reset");
-    const auto action = static_cast<grid::Action>(theirs.at("a").get<int>());
+    const Json& number = theirs.at("a");
+    if (!number.is_number_unsigned() || number.get<std::uint64_t>() >= grid::kActions) {
+      throw std::runtime_error(fmt::format("action {}; expected 0 to 6", number.dump()));
+    }
+    const auto action = static_cast<grid::Action>(number.get<int>());
     const Transition transition = env_->step(action);
     ++report_.steps;
     compare(step_record(*env_, action, transition), theirs);

@@ -137,6 +137,21 @@ TEST(Environment, RefusesAnActionOutOfRangeAndStaysAsItWas) {
   EXPECT_THROW(full.step(static_cast<Action>(7)), std::invalid_argument);
 }
 
+TEST(Environment, RefusesANegativeSeedAndStaysAsItWas) {
+  Environment env("BabyAI-GoToLocal-v0");
+  env.reset(3);
+  const auto before = env.serialize();
+  EXPECT_THROW(env.reset(-1), std::invalid_argument);
+  EXPECT_EQ(env.serialize(), before);
+}
+
+template <class T>
+concept TakenAsSeed = requires(Environment& env, T seed) {
+  env.reset(seed);
+};
+static_assert(TakenAsSeed<int> && TakenAsSeed<std::uint64_t> && TakenAsSeed<core::Seed>);
+static_assert(!TakenAsSeed<double> && !TakenAsSeed<float>);
+
 TEST(Environment, RefusesToStepBeforeTheFirstReset) {
   Environment env("BabyAI-GoToLocal-v0");
   EXPECT_THROW(env.step(Action::left), std::logic_error);

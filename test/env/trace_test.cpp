@@ -130,6 +130,17 @@ TEST(Trace, NamesTheLineThatIsNoRecord) {
   }
 }
 
+TEST(Trace, RefusesSeedsAndActionsThatAreNone) {
+  const std::string reset = R"({"t":"reset","env":"BabyAI-GoToLocal-v0","seed":)";
+  for (const std::string& text :
+       {reset + "-1}", reset + "1.5}", reset + "1}\n{\"t\":\"step\",\"a\":7}",
+        reset + "1}\n{\"t\":\"step\",\"a\":-1}"}) {
+    std::istringstream trace(text);
+    std::ostringstream details;
+    EXPECT_THROW(replay(trace, details), std::runtime_error) << text;
+  }
+}
+
 TEST(Trace, RefusesAnUnknownId) {
   std::istringstream trace("{\"t\":\"reset\",\"env\":\"BabyAI-Nothing-v0\",\"seed\":1}");
   std::ostringstream details;
