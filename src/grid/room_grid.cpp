@@ -196,23 +196,24 @@ bool RoomGrid::all_reachable() const {
 
   // Cells that were reached become walls in a copy. Kept between calls: resets do not allocate.
   thread_local Grid left;
-  thread_local std::vector<Position> reached;
+  thread_local std::vector<ObjectId*> reached;
   left = world.grid;
   reached.clear();
   ObjectSet found = 0;
-  const auto reach = [&](Position p) {
-    found |= only(left[p]);
-    left[p] = kWall;
-    reached.push_back(p);
+  const auto reach = [&](ObjectId* cell) {
+    found |= only(*cell);
+    *cell = kWall;
+    reached.push_back(cell);
   };
-  reach(world.agent);
+  const std::ptrdiff_t row = left.stride();
+  reach(left.pointer(world.agent));
   while (!reached.empty() && (standing & ~found) != 0) {
-    const Position p = reached.back();
+    ObjectId* cell = reached.back();
     reached.pop_back();
-    for (Position step : kForward) {
-      const ObjectId id = left[p + step];
+    for (std::ptrdiff_t step : {std::ptrdiff_t{1}, row, std::ptrdiff_t{-1}, -row}) {
+      const ObjectId id = cell[step];
       found |= only(id);
-      if (id == kNothing || (doors & only(id)) != 0) reach(p + step);
+      if (id == kNothing || (doors & only(id)) != 0) reach(cell + step);
     }
   }
   return (standing & ~found) == 0;

@@ -24,6 +24,7 @@ class Grid {
 
   /// For those who walk the cells themselves: row y + 1 is stride() cells behind row y.
   const ObjectId* pointer(Position p) const { return cells_.data() + index(p); }
+  ObjectId* pointer(Position p) { return cells_.data() + index(p); }
   int stride() const { return width_ + kFrame; }
 
   /// Walls along the border of a rectangle.
