@@ -5,6 +5,9 @@
 #include "wordgaze/babyai/sentence.hpp"
 #include "wordgaze/model/agent.hpp"
 
+/// Compiled once for all tests, in agent_test.cpp.
+extern template struct wordgaze::model::Agent<double>;
+
 /// A small agent with random weights, frames and missions.
 namespace wordgaze::test {
 

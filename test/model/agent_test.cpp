@@ -5,6 +5,8 @@
 #include "model/agent_fixture.hpp"
 #include "wordgaze/nn/gradient_check.hpp"
 
+template struct wordgaze::model::Agent<double>;
+
 namespace wordgaze::model {
 namespace {
 
@@ -169,13 +171,13 @@ TEST_P(AgentVariant, PaddingBehindAMissionChangesNothing) {
 }
 
 TEST_P(AgentVariant, AllocatesNothingAfterTheFirstPass) {
-  AgentFixture<float> g(GetParam(), {4, 8});
-  const Matrix<float> dlogits = Matrix<float>::Ones(7, 32), dvalues = Matrix<float>::Ones(1, 32);
+  AgentFixture<double> g(GetParam(), {4, 8});
+  const Matrix<double> dlogits = Matrix<double>::Ones(7, 32), dvalues = Matrix<double>::Ones(1, 32);
   auto grads = nn::zeros_like(g.params);
   auto dtables = g.agent.make_tables();
   const auto pass = [&] {
     g.forward();
-    if (g.agent.config.task_attention) g.cache.task.dlogits.setConstant(0.1f);
+    if (g.agent.config.task_attention) g.cache.task.dlogits.setConstant(0.1);
     g.agent.backward(g.params, g.tables, g.frames, g.missions, dlogits, dvalues, g.cache, grads,
                      dtables);
     g.agent.all_tables_backward(g.params, g.tables, dtables, grads);
@@ -218,7 +220,7 @@ TEST(Agent, AttentionIsADistribution) {
 
 TEST(Agent, SurvivesScoresFarBelowThoseOutOfView) {
   // The largest score of the table belongs to a code that no frame shows.
-  AgentFixture<float> f(variant(true, false));
+  AgentFixture<double> f(variant(true, false));
   f.forward();
   const int hidden_code = f.agent.alphabet.find({5, 0, 0});
   for (Index i = 0; i < f.frames.cells.size(); ++i) {
@@ -227,7 +229,7 @@ TEST(Agent, SurvivesScoresFarBelowThoseOutOfView) {
   f.tables.attention.scores.row(hidden_code).setConstant(1000);
   f.agent.forward(f.params, f.tables, f.frames, f.missions, f.agent.text(f.cache), f.cache);
   EXPECT_TRUE(f.cache.logits().allFinite());
-  EXPECT_GT(f.cache.attention.scale.colwise().maxCoeff().minCoeff(), 0.99f);
+  EXPECT_GT(f.cache.attention.scale.colwise().maxCoeff().minCoeff(), 0.99);
 }
 
 TEST(Agent, RefusesAMissionThatTheTaskModuleCannotHold) {

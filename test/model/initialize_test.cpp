@@ -1,4 +1,5 @@
 #include "wordgaze/model/initialize.hpp"
+#include "model/agent_fixture.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "model/agent_fixture.hpp"
 #include "support/golden.hpp"
-#include "wordgaze/model/agent.hpp"
 
 /// The agent against PyTorch, which computes it with dense cells and differentiates it by itself
 /// (scripts/golden/agent.py).
