@@ -1,7 +1,7 @@
 #include "wordgaze/rl/evaluator.hpp"
 
 #include <cmath>
-#include <optional>
+#include <memory>
 
 #include "wordgaze/nn/categorical.hpp"
 #include "wordgaze/rl/recorder.hpp"
@@ -19,7 +19,7 @@ struct Lane {
   core::Rng rng;
   std::int64_t episode = -1;  // -1: nothing left to do
   double episode_return = 0;
-  std::optional<Recorder> recorder{};
+  std::unique_ptr<Recorder> recorder{};
 };
 
 /// Episodes [from, to) on one worker.
@@ -44,7 +44,7 @@ EvaluationResult run_share(const Agent& agent, const Agent::Params& params,
     lane.episode_return = 0;
     actor.begin(b, lane.environment.sentence());
     if (observer == nullptr) return;
-    lane.recorder.emplace(*observer);
+    lane.recorder = std::make_unique<Recorder>(*observer);
     if (!lane.recorder->begin(lane.episode, b, seed, lane.environment)) lane.recorder.reset();
   };
   for (int b = 0; b < lane_count; ++b) {

@@ -12,6 +12,8 @@ namespace wordgaze::rl {
 class Recorder {
  public:
   explicit Recorder(Observer& observer) : observer_(&observer) {}
+  Recorder(const Recorder&) = delete;  // its records point into itself
+  Recorder& operator=(const Recorder&) = delete;
 
   /// False if the observer does not want this episode; then nothing more is to be told of it.
   bool begin(std::int64_t episode, int lane, std::uint64_t seed, const env::Environment& env);
