@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "wordgaze/core/crc32.hpp"
+
 namespace wordgaze::env {
 namespace {
 
@@ -51,22 +53,6 @@ std::array<std::uint8_t, grid::kImageBytes> image(const Environment& env) {
   std::array<std::uint8_t, grid::kImageBytes> bytes;
   env.observe(bytes);
   return bytes;
-}
-
-// zlib's CRC-32.
-std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
-  static constexpr auto kTable = [] {
-    std::array<std::uint32_t, 256> table{};
-    for (std::uint32_t n = 0; n < table.size(); ++n) {
-      std::uint32_t c = n;
-      for (int k = 0; k < 8; ++k) c = c >> 1 ^ (c & 1 ? 0xedb88320 : 0);
-      table[n] = c;
-    }
-    return table;
-  }();
-  std::uint32_t crc = 0xffffffff;
-  for (std::uint8_t byte : bytes) crc = kTable[(crc ^ byte) & 0xff] ^ crc >> 8;
-  return ~crc;
 }
 
 Json position(Position p) { return {p.x, p.y}; }

@@ -10,8 +10,8 @@
 #include <set>
 #include <span>
 
+#include "wordgaze/core/crc32.hpp"
 #include "wordgaze/core/require.hpp"
-#include "wordgaze/io/crc32.hpp"
 #include "wordgaze/io/file.hpp"
 
 static_assert(std::endian::native == std::endian::little,

@@ -5,15 +5,13 @@
 #include <fstream>
 #include <sstream>
 
+#include "wordgaze/core/crc32.hpp"
 #include "wordgaze/env/environment.hpp"
-#include "wordgaze/io/crc32.hpp"
 
 namespace wordgaze::draw {
 namespace {
 
-std::uint32_t crc(const Image& image) {
-  return io::crc32({reinterpret_cast<const char*>(image.rgb.data()), image.rgb.size()});
-}
+std::uint32_t crc(const Image& image) { return crc32(std::span<const std::uint8_t>(image.rgb)); }
 
 /// The lines of a golden file of scripts/golden/render.py, without its head.
 std::vector<std::string> golden_lines(const std::string& name) {

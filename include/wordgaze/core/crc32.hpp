@@ -1,9 +1,10 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
-namespace wordgaze::io {
+namespace wordgaze {
 
 namespace detail {
 inline constexpr auto kCrcTable = [] {
@@ -27,4 +28,8 @@ constexpr std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0) 
   return ~crc;
 }
 
-}  // namespace wordgaze::io
+inline std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
+  return crc32({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace wordgaze

@@ -1,8 +1,8 @@
-#include "wordgaze/io/crc32.hpp"
+#include "wordgaze/core/crc32.hpp"
 
 #include <gtest/gtest.h>
 
-namespace wordgaze::io {
+namespace wordgaze {
 namespace {
 
 TEST(Crc32, AgreesWithTheStandardsCheckValue) {
@@ -13,4 +13,4 @@ TEST(Crc32, AgreesWithTheStandardsCheckValue) {
 TEST(Crc32, ContinuesOverPieces) { EXPECT_EQ(crc32("6789", crc32("12345")), crc32("123456789")); }
 
 }  // namespace
-}  // namespace wordgaze::io
+}  // namespace wordgaze
