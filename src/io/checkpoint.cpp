@@ -59,7 +59,8 @@ Params get_params(const TensorMap& map, const std::string& prefix, const model::
   nn::for_each_parameter(
       [&](const nn::Path& path, auto& leaf) {
         const std::string name = prefix + path.str();
-        const bool optional = fresh != nullptr && path.names[0] == "task";
+        const bool optional =
+            fresh != nullptr && (path.names[0] == "task" || path.names[0] == "completion");
         if (leaf.size() == 0 || (optional && !map.tensors.contains(name))) return;
         copy_tensor(map, name, leaf);
       },

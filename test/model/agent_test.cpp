@@ -21,6 +21,12 @@ Config variant(bool attention, bool task_attention, double exponent = 2) {
   return c;
 }
 
+Config with_completion_input() {
+  Config c = variant(true, false);
+  c.completion_input = true;
+  return c;
+}
+
 /// The agent written a second time from the equations: one-hot cells, all 49 of them, one frame and
 /// one word at a time, no tables.
 struct PlainTwin {
@@ -99,8 +105,8 @@ struct PlainTwin {
         }
         const Matrix<double> filtered = encoding * scale(n, encoding, s).asDiagonal();
         const auto& m = f.params.memory;
-        const Vector<double> z =
-            m.input_weight * filtered.reshaped() + m.hidden_weight * h + m.bias;
+        Vector<double> z = m.input_weight * filtered.reshaped() + m.hidden_weight * h + m.bias;
+        if (c.completion_input) z += f.params.completion * x.completion.col(n);
         memory = logistic(z.segment(hidden, hidden)).array() * memory.array() +
                  logistic(z.head(hidden)).array() * z.segment(2 * hidden, hidden).array().tanh();
         h = logistic(z.tail(hidden)).array() * memory.array().tanh();
@@ -191,12 +197,14 @@ TEST_P(AgentVariant, AllocatesNothingAfterTheFirstPass) {
 INSTANTIATE_TEST_SUITE_P(Readings, AgentVariant,
                          testing::Values(variant(false, false), variant(true, false),
                                          variant(true, false, 1), variant(true, false, 3),
-                                         variant(true, true), variant(true, true, 1)),
+                                         variant(true, true), variant(true, true, 1),
+                                         with_completion_input()),
                          [](const auto& variant_info) {
                            const Config& c = variant_info.param;
-                           return std::string(c.task_attention ? "TaskAttention"
-                                              : c.attention    ? "Attention"
-                                                               : "Baseline") +
+                           return std::string(c.completion_input ? "CompletionInput"
+                                              : c.task_attention ? "TaskAttention"
+                                              : c.attention      ? "Attention"
+                                                                 : "Baseline") +
                                   "P" + std::to_string(static_cast<int>(c.gaze_exponent));
                          });
 

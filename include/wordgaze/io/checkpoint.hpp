@@ -15,8 +15,8 @@ void save_checkpoint(const std::filesystem::path& path, const rl::TrainConfig& c
 /// std::runtime_error that names the file and what is wrong with it.
 rl::TrainConfig load_config(const std::filesystem::path& path);
 
-/// The weights, for an agent of this configuration. `fresh` gives the values of leaves of the Task
-/// Attention Module that the file lacks: weights of a first phase start a second one. Any other
+/// The weights, for an agent of this configuration. `fresh` gives the values of leaves that
+/// only a second phase has (`task` and `completion`) where the file lacks them. Any other
 /// difference in names or shapes is an error.
 rl::Agent::Params load_params(const std::filesystem::path& path, const model::Config& config,
                               const rl::Agent::Params* fresh = nullptr);

@@ -53,13 +53,18 @@ struct Agent {
     typename Memory::Params memory;
     typename TextEncoder<S>::Params text;
     typename TaskAttention<S>::Params task;  ///< empty without task attention
+    Matrix<S> completion;                    ///< [4 H, clauses]; empty unless completion_input
     typename Head<S>::Params actor, critic;
     static constexpr auto fields() {
-      return std::tuple{
-          nn::Field{"visual", &Params::visual},       nn::Field{"words", &Params::words},
-          nn::Field{"attention", &Params::attention}, nn::Field{"memory", &Params::memory},
-          nn::Field{"text", &Params::text},           nn::Field{"task", &Params::task},
-          nn::Field{"actor", &Params::actor},         nn::Field{"critic", &Params::critic}};
+      return std::tuple{nn::Field{"visual", &Params::visual},
+                        nn::Field{"words", &Params::words},
+                        nn::Field{"attention", &Params::attention},
+                        nn::Field{"memory", &Params::memory},
+                        nn::Field{"text", &Params::text},
+                        nn::Field{"task", &Params::task},
+                        nn::Field{"completion", &Params::completion},
+                        nn::Field{"actor", &Params::actor},
+                        nn::Field{"critic", &Params::critic}};
     }
   };
 
@@ -158,6 +163,7 @@ typename Agent<S>::Params Agent<S>::make_params() const {
     nn::Linear<S>::resize(p.task.hidden, c.word_size + c.clauses, c.task_size);
     nn::Linear<S>::resize(p.task.output, c.task_size, c.task_words);
   }
+  if (c.completion_input) p.completion.resize(4 * c.memory_size, c.clauses);
   Head<S>::resize(p.actor, c.memory_size + c.text_size, c.head_size, grid::kActions);
   Head<S>::resize(p.critic, c.memory_size + c.text_size, c.head_size, 1);
   nn::set_zero(p);
@@ -239,6 +245,7 @@ void Agent<S>::forward(const Params& p, const Tables& t, const Frames<S>& x,
                             k.attention);
   }
   FilteredInput<S>::forward(t.input, x.cells, scale(k), k.memory.gates);
+  if (config.completion_input) k.memory.gates.noalias() += p.completion * x.completion;
   Memory::forward(p.memory, x.shape, x.keep, x.start, k.memory);
   k.features.topRows(hidden) = k.memory.h;
   for (Index n = 0; n < x.shape.columns(); ++n) {
@@ -263,6 +270,9 @@ void Agent<S>::backward(const Params& p, const Tables& t, const Frames<S>& x,
   }
   TextEncoder<S>::backward(p.text, missions, k.text, grads.text, dt.text);
   Memory::backward(p.memory, x.shape, x.keep, k.dfeatures.topRows(hidden), k.memory, grads.memory);
+  if (config.completion_input) {
+    grads.completion.noalias() += k.memory.dgates * x.completion.transpose();
+  }
   FilteredInput<S>::backward(t.input, x.cells, scale(k), k.memory.dgates, dt.input, k.dscale);
   if (!config.attention) return;
   Attention::backward_gaze(missions, x.mission_of, k.alpha, static_cast<S>(config.gaze_exponent),

@@ -6,19 +6,20 @@ namespace wordgaze::model {
 
 /// Sizes and readings of the network, named as in the paper; docs/reading.md gives the reasons.
 struct Config {
-  bool attention = true;        ///< false: the baseline, F = O~
-  bool task_attention = false;  ///< the Task Attention Module
-  int channels = 16;            ///< C: feature maps of the visual encoding O~
-  int word_size = 16;           ///< E: word embedding g~
-  int key_size = 16;            ///< d_k
-  int memory_size = 64;         ///< LSTM
-  int text_size = 32;           ///< GRU over the mission
-  int head_size = 64;           ///< hidden layer of actor and of critic
-  int task_size = 64;           ///< hidden layer of the Task Attention Module
-  int task_words = 32;          ///< outputs of the Task Attention Module: longest mission it takes
-  int clauses = 4;              ///< length of the completion vector c_t
-  double entropy_base = 49;     ///< base of the logarithm in the row entropies H (eq. 2)
-  double gaze_exponent = 2;     ///< p in s(M) = (M / max M)^p
+  bool attention = true;          ///< false: the baseline, F = O~
+  bool task_attention = false;    ///< the Task Attention Module
+  bool completion_input = false;  ///< c_t goes to the memory, beside the filtered view
+  int channels = 16;              ///< C: feature maps of the visual encoding O~
+  int word_size = 16;             ///< E: word embedding g~
+  int key_size = 16;              ///< d_k
+  int memory_size = 64;           ///< LSTM
+  int text_size = 32;             ///< GRU over the mission
+  int head_size = 64;             ///< hidden layer of actor and of critic
+  int task_size = 64;             ///< hidden layer of the Task Attention Module
+  int task_words = 32;        ///< outputs of the Task Attention Module: longest mission it takes
+  int clauses = 4;            ///< length of the completion vector c_t
+  double entropy_base = 49;   ///< base of the logarithm in the row entropies H (eq. 2)
+  double gaze_exponent = 2;   ///< p in s(M) = (M / max M)^p
   double object_prior = 2;    ///< initial score of every word on objects over other cells; 0: none
   double encoder_bias = 1;    ///< initial bias of the visual encoder: near-linear at the start
   double encoder_leak = 0.1;  ///< slope of its leaky ReLU below zero; 0: plain ReLU
@@ -28,6 +29,8 @@ struct Config {
     return std::tuple{
         Setting{"attention", &C::attention, "text-visual attention; false is the baseline"},
         Setting{"task_attention", &C::task_attention, "the Task Attention Module (mask alpha)"},
+        Setting{"completion_input", &C::completion_input,
+                "the memory reads c_t too; an ablation of the Task Attention Module"},
         Setting{"channels", &C::channels, "C, feature maps of the visual encoding", 1, 1024},
         Setting{"word_size", &C::word_size, "E, size of a word embedding", 1, 1024},
         Setting{"key_size", &C::key_size, "d_k, size of queries and keys", 1, 1024},
