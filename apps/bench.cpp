@@ -18,10 +18,10 @@ using namespace wordgaze;
 using Json = nlohmann::ordered_json;
 
 struct Arguments {
-  std::string sim, train, act;
+  std::string sim, reset, train, act;
   int envs = 256, threads = 1;
   double seconds = 3;
-  std::int64_t frames = 200'000;
+  std::int64_t steps = 0, frames = 0;  // 0: as many as fit in `seconds`
 };
 
 Arguments parse(int argc, char** argv) {
@@ -29,13 +29,16 @@ Arguments parse(int argc, char** argv) {
   CLI::App app{"Measures rates. Rates per CPU second do not suffer from a shared machine."};
   auto* what = app.add_option_group("what to measure");
   what->add_option("--sim", a.sim, "environment id: steps with random actions, views and resets");
+  what->add_option("--reset", a.reset, "environment id: new episodes of one environment, no views");
   what->add_option("--train", a.train, "TOML file: the whole training loop");
   what->add_option("--act", a.act, "TOML file: one decision for one robot");
   what->require_option(1);
   app.add_option("--envs", a.envs, "environments of --sim")->check(CLI::Range(1, 10'000'000));
-  app.add_option("--seconds", a.seconds, "at least, of --sim and --act")
-      ->check(CLI::Range(0.01, 3600.0));
-  app.add_option("--frames", a.frames, "of --train")->check(CLI::Range(1, 1'000'000'000));
+  app.add_option("--seconds", a.seconds, "at least")->check(CLI::Range(0.01, 3600.0));
+  app.add_option("--steps", a.steps, "of --sim, in place of --seconds: at least")
+      ->check(CLI::Range(1, 1'000'000'000));
+  app.add_option("--frames", a.frames, "of --train, in place of --seconds: at least")
+      ->check(CLI::Range(1, 1'000'000'000));
   app.add_option("--threads", a.threads, "workers")->check(CLI::Range(1, 256));
   try {
     app.parse(argc, argv);
@@ -59,6 +62,11 @@ class Stopwatch {
   }
   double wall_ = now(CLOCK_MONOTONIC), cpu_ = now(CLOCK_PROCESS_CPUTIME_ID);
 };
+
+/// Whether to go on: until a count is reached or, without one, until the time is up.
+bool unfinished(std::int64_t done, std::int64_t wanted, double seconds, const Stopwatch& watch) {
+  return wanted > 0 ? done < wanted : watch.wall() < seconds;
+}
 
 void report(const char* unit, double count, const Stopwatch& watch, Json& json) {
   json[unit] = count;
@@ -91,7 +99,7 @@ Json simulate(const Arguments& a) {
 
   const Stopwatch watch;
   std::int64_t steps = 0;
-  while (watch.wall() < a.seconds) {
+  while (unfinished(steps, a.steps, a.seconds, watch)) {
     for (int k = 0; k < 16; ++k) {
       const auto offset = static_cast<std::size_t>(rng.below(4096));
       batch.step(std::span(actions).subspan(offset, size), out);
@@ -106,6 +114,19 @@ Json simulate(const Arguments& a) {
   return json;
 }
 
+Json reset(const Arguments& a) {
+  env::Environment environment(a.reset);
+  environment.reset(0);
+  const Stopwatch watch;
+  std::int64_t resets = 0;
+  for (; watch.wall() < a.seconds; resets += 64) {
+    for (int k = 0; k < 64; ++k) environment.reset();
+  }
+  Json json{{"bench", "reset"}, {"env", a.reset}};
+  report("resets", static_cast<double>(resets), watch, json);
+  return json;
+}
+
 Json train(const Arguments& a) {
   auto config = io::read_config<rl::TrainConfig>(a.train);
   config.threads = a.threads;
@@ -114,7 +135,7 @@ Json train(const Arguments& a) {
   trainer.update();  // sizes every cache
   const std::int64_t before = trainer.frames();
   const Stopwatch watch;
-  while (trainer.frames() - before < a.frames) trainer.update();
+  while (unfinished(trainer.frames() - before, a.frames, a.seconds, watch)) trainer.update();
   Json json{{"bench", "train"}, {"config", a.train}, {"threads", a.threads}};
   report("frames", static_cast<double>(trainer.frames() - before), watch, json);
   return json;
@@ -168,7 +189,10 @@ Json act(const Arguments& a) {
 int main(int argc, char** argv) {
   try {
     const Arguments a = parse(argc, argv);
-    const Json json = !a.sim.empty() ? simulate(a) : !a.train.empty() ? train(a) : act(a);
+    const Json json = !a.sim.empty()     ? simulate(a)
+                      : !a.reset.empty() ? reset(a)
+                      : !a.train.empty() ? train(a)
+                                         : act(a);
     fmt::print("{}\n", json.dump());
     return 0;
   } catch (const std::exception& error) {
