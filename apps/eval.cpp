@@ -1,10 +1,12 @@
 // eval: how well a trained agent does, in the room it knows and in others, and where it looks.
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <regex>
 
 #include "listeners.hpp"
 #include "pictures.hpp"
+#include "transparency_report.hpp"
 #include "wordgaze/io/checkpoint.hpp"
 #include "wordgaze/io/file.hpp"
 #include "wordgaze/rl/alphabet.hpp"
@@ -20,7 +22,7 @@ struct Arguments {
   int episodes = 1000;
   std::uint64_t seed = 1'000'000;
   int threads = 0;
-  bool greedy = false, sample = false;
+  bool greedy = false, sample = false, transparency = false;
   apps::Listeners::Options listeners;
 };
 
@@ -40,6 +42,8 @@ Arguments parse(int argc, char** argv) {
   app.add_option("--threads", a.threads, "0: all processors")->check(CLI::Range(0, 256));
   app.add_flag("--greedy", a.greedy, "the likeliest action");
   app.add_flag("--sample", a.sample, "actions drawn from the policy");
+  app.add_flag("--transparency", a.transparency,
+               "measure where the agent looks and whether that decides (docs/metrics.md)");
   app.add_option("--json", a.json, "file for the table as JSON");
   app.add_option("--pictures", a.pictures, "folder for pictures of the attention (PNG)");
   app.add_option("--lcm-log", a.listeners.log, "LCM log of every step");
@@ -74,6 +78,14 @@ std::vector<std::string> settings(const Arguments& a, const std::string& trained
   return ids;
 }
 
+nlohmann::ordered_json to_json(const rl::Breakdown::Counts& counts) {
+  nlohmann::ordered_json json;
+  for (const auto& [key, count] : counts) {
+    json[key] = {{"episodes", count.episodes}, {"success_rate", count.success_rate()}};
+  }
+  return json;
+}
+
 nlohmann::ordered_json record(const std::string& id, const rl::Evaluation& evaluation,
                               const rl::EvaluationResult& r, const rl::Interval& ci) {
   const auto& level = evaluation.level;
@@ -89,7 +101,20 @@ nlohmann::ordered_json record(const std::string& id, const rl::Evaluation& evalu
           {"mean_steps", r.mean_steps()},
           {"done_wrong", r.done_wrong},
           {"truncated", r.truncated},
-          {"hit", r.hits.seen > 0 ? nlohmann::ordered_json(r.hits.rate()) : nullptr}};
+          {"hit", r.hits.seen > 0 ? nlohmann::ordered_json(r.hits.rate()) : nullptr},
+          {"by_verb", to_json(r.breakdown.by_verb)},
+          {"by_join", to_json(r.breakdown.by_join)},
+          {"by_clauses", to_json(r.breakdown.by_clauses)}};
+}
+
+/// Where missions join clauses: success by the words that do.
+void print_joins(const rl::Breakdown& breakdown) {
+  if (breakdown.by_join.size() < 2) return;
+  fmt::print("  success by join:");
+  for (const auto& [join, count] : breakdown.by_join) {
+    fmt::print("  {} {:.1f}% of {}", join, 100 * count.success_rate(), count.episodes);
+  }
+  fmt::print("\n");
 }
 
 int run(Arguments a) {
@@ -120,7 +145,11 @@ int run(Arguments a) {
              "time up", "hit");
   for (const auto& evaluation : evaluations) {
     const rl::Agent agent{config.model, rl::alphabet_of(evaluation.level)};
-    const auto r = rl::evaluate(agent, params, evaluation, team, listeners.observer());
+    std::optional<explain::Transparency> transparency;
+    if (a.transparency) transparency.emplace(agent, params, config.ppo.mask_truth);
+    const auto r = rl::evaluate(
+        agent, params, evaluation, team,
+        {.observer = listeners.observer(), .witness = transparency ? &*transparency : nullptr});
     const auto ci = rl::wilson_interval(r.successes, r.episodes);
     fmt::print(
         "{:<30} {:>7} {:>8} {:>7.1f}%  [{:>5.1f}, {:>5.1f}] {:>8.3f} {:>6.1f} {:>6} {:>7} "
@@ -128,8 +157,13 @@ int run(Arguments a) {
         evaluation.level.id, evaluation.greedy ? "greedy" : "sampled", r.episodes,
         100 * r.success_rate(), 100 * ci.low, 100 * ci.high, r.mean_reward(), r.mean_steps(),
         r.done_wrong, r.truncated, r.hits.rate());
-    std::fflush(stdout);
+    print_joins(r.breakdown);
     report["settings"].push_back(record(evaluation.level.id, evaluation, r, ci));
+    if (transparency) {
+      apps::print(*transparency);
+      report["settings"].back()["transparency"] = apps::to_json(*transparency);
+    }
+    std::fflush(stdout);
   }
   if (!a.json.empty()) io::write_file(a.json, report.dump(2) + "\n");
   if (!a.pictures.empty()) {

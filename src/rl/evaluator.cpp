@@ -25,7 +25,7 @@ struct Lane {
 /// Episodes [from, to) on one worker.
 EvaluationResult run_share(const Agent& agent, const Agent::Params& params,
                            const Agent::Tables& tables, const Evaluation& e, int from, int to,
-                           Observer* observer) {
+                           const Audience& audience) {
   const int lane_count = std::min(e.lanes, to - from);
   EvaluationResult result;
   if (lane_count <= 0) return result;
@@ -43,8 +43,8 @@ EvaluationResult run_share(const Agent& agent, const Agent::Params& params,
     lane.rng = episode_rng(seed);
     lane.episode_return = 0;
     actor.begin(b, lane.environment.sentence());
-    if (observer == nullptr) return;
-    lane.recorder = std::make_unique<Recorder>(*observer);
+    if (audience.observer == nullptr) return;
+    lane.recorder = std::make_unique<Recorder>(*audience.observer);
     if (!lane.recorder->begin(lane.episode, b, seed, lane.environment)) lane.recorder.reset();
   };
   for (int b = 0; b < lane_count; ++b) {
@@ -65,6 +65,9 @@ EvaluationResult run_share(const Agent& agent, const Agent::Params& params,
       const auto action = e.greedy ? Choice::greedy(log_p)
                                    : Choice::sample(log_p, static_cast<float>(lane.rng.uniform()));
       result.hits.add(agent, actor, b, lane.environment);
+      if (audience.witness != nullptr) {
+        audience.witness->on_decision({actor, b, lane.environment, action});
+      }
       if (lane.recorder) {
         lane.recorder->decide(agent, actor, b, lane.environment, static_cast<int>(action),
                               Choice::entropy(log_p));
@@ -81,6 +84,7 @@ EvaluationResult run_share(const Agent& agent, const Agent::Params& params,
       result.truncated += !transition.terminated;
       result.return_sum += lane.episode_return;
       result.steps += lane.environment.step_count();
+      result.breakdown.add(lane.environment.instruction(), success);
       if (lane.recorder) {
         lane.recorder->end({.episode = lane.episode,
                             .lane = b,
@@ -106,6 +110,7 @@ void EvaluationResult::operator+=(const EvaluationResult& o) {
   return_sum += o.return_sum;
   steps += o.steps;
   hits += o.hits;
+  breakdown += o.breakdown;
 }
 
 Interval wilson_interval(int successes, int episodes) {
@@ -121,17 +126,16 @@ Interval wilson_interval(int successes, int episodes) {
 }
 
 EvaluationResult evaluate(const Agent& agent, const Agent::Params& params,
-                          const Evaluation& evaluation, Team& team, Observer* observer) {
+                          const Evaluation& evaluation, Team& team, Audience audience) {
   Agent::Tables tables = agent.make_tables();
   agent.update_all_tables(params, tables);
-  if (observer != nullptr) {
-    return run_share(agent, params, tables, evaluation, 0, evaluation.episodes, observer);
+  if (!audience.empty()) {
+    return run_share(agent, params, tables, evaluation, 0, evaluation.episodes, audience);
   }
   std::vector<EvaluationResult> parts(static_cast<std::size_t>(team.size()));
   team.run([&](int w) {
     const auto [from, to] = team.share(evaluation.episodes, w);
-    parts[static_cast<std::size_t>(w)] =
-        run_share(agent, params, tables, evaluation, from, to, nullptr);
+    parts[static_cast<std::size_t>(w)] = run_share(agent, params, tables, evaluation, from, to, {});
   });
   EvaluationResult result;
   for (const auto& part : parts) result += part;

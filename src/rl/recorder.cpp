@@ -19,28 +19,9 @@ bool Recorder::begin(std::int64_t episode, int lane, std::uint64_t seed,
 void Recorder::decide(const Agent& agent, const Actor& actor, int lane, const env::Environment& env,
                       int action, float entropy) {
   const auto& cache = actor.cache();
-  const auto length = env.sentence().length;
-  const auto column = [&](const Matrix<float>& m, Index rows, std::vector<float>& to) {
-    to.assign(m.col(lane).data(), m.col(lane).data() + rows);
-  };
-  column(cache.logits(), grid::kActions, logits_);
-  weights_.clear();
-  mask_.clear();
-  attention_.clear();
-  gaze_.clear();
-  if (agent.config.attention) {
-    const auto& a = cache.attention;
-    column(a.weights, length, weights_);
-    column(cache.alpha, length, mask_);
-    const auto cells = actor.frames().cells.col(lane);
-    for (Index i = 0; i < length; ++i) {
-      for (Index c = 0; c < grid::kViewCells; ++c) {
-        attention_.push_back(a.maps(cells(c), a.map(lane, i)));
-      }
-    }
-    for (Index c = 0; c < grid::kViewCells; ++c) gaze_.push_back(a.gaze(cells(c), lane));
-  }
-  env.observe(image_);
+  const auto logits = cache.logits().col(lane);
+  logits_.assign(logits.data(), logits.data() + grid::kActions);
+  look(agent, actor, lane, env, sight_);
   record_.episode = episode_;
   record_.lane = lane;
   record_.step = env.step_count();
@@ -51,10 +32,10 @@ void Recorder::decide(const Agent& agent, const Actor& actor, int lane, const en
   record_.value = cache.values()(0, lane);
   record_.entropy = entropy;
   record_.logits = logits_;
-  record_.word_weights = weights_;
-  record_.word_mask = mask_;
-  record_.word_attention = attention_;
-  record_.attention_map = gaze_;
+  record_.word_weights = sight_.weights;
+  record_.word_mask = sight_.mask;
+  record_.word_attention = sight_.maps;
+  record_.attention_map = sight_.gaze;
 }
 
 void Recorder::step(const env::Transition& transition) {

@@ -68,6 +68,33 @@ TEST_F(Eval, TakesOnePolicyOrTheOther) {
   EXPECT_EQ(table.find("sampled"), std::string::npos);
 }
 
+TEST_F(Eval, BreaksSuccessDownByVerbAndJoin) {
+  ASSERT_TRUE(
+      succeeded(run("eval --checkpoint ckpt --env Wordgaze-Two-N8-K4-v0 --episodes 40 "
+                    "--sample --json e.json")));
+  const auto setting = nlohmann::json::parse(run.read("e.json")).at("settings")[0];
+  int episodes = 0;
+  for (const char* join : {"and", "then", "after"}) {
+    episodes += setting.at("by_join").at(join).at("episodes").get<int>();
+  }
+  EXPECT_EQ(episodes, 40);
+  EXPECT_EQ(setting.at("by_clauses").at("2").at("episodes"), 40);
+  EXPECT_TRUE(setting.at("by_verb").contains("pick up, go to"));
+}
+
+TEST_F(Eval, MeasuresTransparency) {
+  const auto evaluated =
+      run("eval --checkpoint ckpt --episodes 5 --sample --transparency --json e.json");
+  ASSERT_TRUE(succeeded(evaluated));
+  EXPECT_TRUE(contains(evaluated.out, "gaze M"));
+  const auto t = nlohmann::json::parse(run.read("e.json")).at("settings")[0].at("transparency");
+  EXPECT_GT(t.at("decisions"), 0);
+  EXPECT_TRUE(t.at("gaze").at("pointing").at("target").is_number());
+  EXPECT_TRUE(t.at("gradient").at("faithfulness").at("deletion").at("1").contains("brightest"));
+  EXPECT_TRUE(t.at("words").at("content_weight").is_number());
+  EXPECT_TRUE(t.at("mask").is_null());
+}
+
 TEST_F(Eval, DrawsPictures) {
   ASSERT_TRUE(succeeded(run("eval --checkpoint ckpt --episodes 2 --pictures p")));
   EXPECT_TRUE(succeeded(run("ls p/*.png && head -c 4 $(ls p/*.png | head -1) | grep -q PNG")));

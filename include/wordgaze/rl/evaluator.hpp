@@ -3,8 +3,10 @@
 
 #include "wordgaze/core/team.hpp"
 #include "wordgaze/rl/actor.hpp"
+#include "wordgaze/rl/breakdown.hpp"
 #include "wordgaze/rl/gaze_hits.hpp"
 #include "wordgaze/rl/observer.hpp"
+#include "wordgaze/rl/witness.hpp"
 
 namespace wordgaze::rl {
 
@@ -24,6 +26,7 @@ struct EvaluationResult {
   double return_sum = 0;
   std::int64_t steps = 0;
   GazeHits hits;
+  Breakdown breakdown;
 
   double success_rate() const { return ratio(successes); }
   double mean_reward() const { return ratio(return_sum); }
@@ -40,10 +43,18 @@ struct Interval {
 };
 Interval wilson_interval(int successes, int episodes);
 
-/// Runs the episodes, shared out to the team. With an observer all of them run on one worker, in
-/// order of their beginning, and those it wants are reported.
+/// Who attends an evaluation.
+struct Audience {
+  Observer* observer = nullptr;  ///< is told of the episodes that it wants
+  Witness* witness = nullptr;    ///< looks into every decision
+
+  bool empty() const { return observer == nullptr && witness == nullptr; }
+};
+
+/// Runs the episodes, shared out to the team; with an audience on one worker, in order of their
+/// beginning.
 EvaluationResult evaluate(const Agent& agent, const Agent::Params& params,
-                          const Evaluation& evaluation, Team& team, Observer* observer = nullptr);
+                          const Evaluation& evaluation, Team& team, Audience audience = {});
 
 /// How well M finds the target in `lanes` worlds of a level over the first `steps` steps.
 GazeHits probe_gaze(const Agent& agent, const Agent::Params& params, const Agent::Tables& tables,

@@ -1,14 +1,13 @@
 #pragma once
-#include <array>
 #include <vector>
 
-#include "wordgaze/rl/actor.hpp"
 #include "wordgaze/rl/observer.hpp"
+#include "wordgaze/rl/sight.hpp"
 
 namespace wordgaze::rl {
 
-/// Turns the decisions of one lane of an actor into the records of an observer: codes back into
-/// maps over 49 cells. Holds the buffers that the records point to.
+/// Turns the decisions of one lane of an actor into the records of an observer. Holds the buffers
+/// that the records point to.
 class Recorder {
  public:
   explicit Recorder(Observer& observer) : observer_(&observer) {}
@@ -28,9 +27,9 @@ class Recorder {
  private:
   Observer* observer_;
   std::int64_t episode_ = 0;
-  std::array<std::uint8_t, grid::kImageBytes> image_{};
-  std::vector<float> logits_, weights_, mask_, attention_, gaze_;
-  StepRecord record_{.image = image_};
+  Sight sight_;
+  std::vector<float> logits_;
+  StepRecord record_{.image = sight_.image};
 };
 
 }  // namespace wordgaze::rl

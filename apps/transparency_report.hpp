@@ -1,0 +1,140 @@
+#pragma once
+#include <fmt/core.h>
+
+#include <nlohmann/json.hpp>
+
+#include "wordgaze/explain/transparency.hpp"
+
+/// Transparency as JSON and as a table; docs/metrics.md defines the numbers.
+namespace wordgaze::apps {
+
+using Json = nlohmann::ordered_json;
+using explain::Change;
+
+inline Json to_json(const explain::Pointing& p) {
+  return {{"target", p.target.value()},
+          {"target_chance", p.target_chance.value()},
+          {"target_count", p.target.count},
+          {"named", p.named.value()},
+          {"named_chance", p.named_chance.value()},
+          {"named_count", p.named.count}};
+}
+
+inline Json to_json(const explain::Mass& mass) {
+  Json json;
+  const auto roles = names(explain::Role{});
+  for (std::size_t r = 0; r < roles.size(); ++r) {
+    json[std::string(roles[r])] = {{"share", mass.share[r].value()}, {"even", mass.even[r].value()}};
+  }
+  return json;
+}
+
+inline Json to_json(const explain::Faithfulness& faithfulness) {
+  const auto effects = [&](Change::Test test) {
+    Json json;
+    for (const int k : explain::kDeletedCells) {
+      const auto shift = [&](Change::Cells cells) {
+        return faithfulness.of(test, cells, k).value();
+      };
+      json[std::to_string(k)] = {{"brightest", shift(Change::Cells::brightest)},
+                                 {"others", shift(Change::Cells::others)},
+                                 {"objects", shift(Change::Cells::objects)}};
+    }
+    return json;
+  };
+  return {{"deletion", effects(Change::Test::deletion)},
+          {"insertion", effects(Change::Test::insertion)}};
+}
+
+inline Json to_json(const explain::MapReport& report) {
+  return {{"pointing", to_json(report.pointing)},
+          {"mass_in_view", to_json(report.mass_in_view)},
+          {"mass_out_of_view", to_json(report.mass_out_of_view)},
+          {"faithfulness", to_json(report.faithfulness)},
+          {"faithfulness_in_view", to_json(report.faithfulness_in_view)}};
+}
+
+/// What the agent lacks is null.
+inline Json to_json(const explain::Transparency& t) {
+  Json json{{"decisions", t.decisions()}, {"gaze", nullptr}};
+  if (t.has_gaze()) {
+    json["gaze"] = to_json(t.gaze());
+    json["gaze"]["filter_in_view"] = to_json(t.filter());
+  }
+  json["gradient"] = to_json(t.gradient());
+  json["gradient_times_input"] = to_json(t.gradient_times_input());
+  json["words"] = nullptr;
+  json["mask"] = nullptr;
+  if (t.has_gaze()) {
+    json["words"] = {{"color_pointing", t.words().color.value()},
+                     {"type_pointing", t.words().type.value()},
+                     {"content_weight", t.weights().content.value()},
+                     {"function_weight", t.weights().function.value()},
+                     {"content_share", t.weights().content_share.value()},
+                     {"content_share_even", t.weights().even_share.value()}};
+  }
+  if (t.has_mask()) {
+    json["mask"] = {{"f1", t.mask().f1()},
+                    {"precision", t.mask().precision()},
+                    {"recall", t.mask().recall()},
+                    {"alpha_bright", t.mask().bright.value()},
+                    {"alpha_dark", t.mask().dark.value()},
+                    {"changes", t.mask_delay().changes()},
+                    {"changes_followed_at_once", t.mask_delay().at_once()},
+                    {"changes_followed", t.mask_delay().steps().count},
+                    {"delay", t.mask_delay().steps().value()}};
+  }
+  return json;
+}
+
+inline void print(std::string_view name, const explain::Mass& mass) {
+  fmt::print("  {:<22} mass with a target in view:", name);
+  const auto roles = names(explain::Role{});
+  for (std::size_t r = 0; r < roles.size(); ++r) {
+    fmt::print(" {} {:.3f}", roles[r], mass.share[r].value());
+  }
+  fmt::print("\n");
+}
+
+inline void print(std::string_view name, const explain::MapReport& report) {
+  const auto& p = report.pointing;
+  fmt::print("  {:<22} points at a target {:.3f} (chance {:.3f}), at a named object {:.3f} ({:.3f})\n",
+             name, p.target.value(), p.target_chance.value(), p.named.value(),
+             p.named_chance.value());
+  print("", report.mass_in_view);
+  const auto& f = report.faithfulness_in_view;
+  for (const auto test : {Change::Test::deletion, Change::Test::insertion}) {
+    for (const int k : explain::kDeletedCells) {
+      fmt::print("  {:<22} {} of {}: brightest {:.3f}, random others {:.3f}, other objects {:.3f}\n",
+                 "", test == Change::Test::deletion ? "deletion" : "insertion", k,
+                 f.of(test, Change::Cells::brightest, k).value(),
+                 f.of(test, Change::Cells::others, k).value(),
+                 f.of(test, Change::Cells::objects, k).value());
+    }
+  }
+}
+
+inline void print(const explain::Transparency& t) {
+  if (t.has_gaze()) {
+    print("gaze M", t.gaze());
+    print("filter s(M)", t.filter());
+  }
+  print("gradient", t.gradient());
+  print("gradient times input", t.gradient_times_input());
+  if (t.has_gaze()) {
+    fmt::print("  {:<22} points at its color {:.3f}, its type {:.3f}\n", "map of a word",
+               t.words().color.value(), t.words().type.value());
+    fmt::print("  {:<22} content {:.3f}, function {:.3f}; all content words {:.3f} (even {:.3f})\n",
+               "weight of a word", t.weights().content.value(), t.weights().function.value(),
+               t.weights().content_share.value(), t.weights().even_share.value());
+  }
+  if (t.has_mask()) {
+    fmt::print("  {:<22} F1 {:.4f}; alpha {:.3f} on bright words, {:.3f} on dark ones\n", "mask",
+               t.mask().f1(), t.mask().bright.value(), t.mask().dark.value());
+    fmt::print("  {:<22} follows {} of {} changes of c_t at once, {} in all, after {:.2f} steps\n",
+               "", t.mask_delay().at_once(), t.mask_delay().changes(),
+               t.mask_delay().steps().count, t.mask_delay().steps().value());
+  }
+}
+
+}  // namespace wordgaze::apps
