@@ -24,7 +24,8 @@ inline Json to_json(const explain::Mass& mass) {
   Json json;
   const auto roles = names(explain::Role{});
   for (std::size_t r = 0; r < roles.size(); ++r) {
-    json[std::string(roles[r])] = {{"share", mass.share[r].value()}, {"even", mass.even[r].value()}};
+    json[std::string(roles[r])] = {{"share", mass.share[r].value()},
+                                   {"even", mass.even[r].value()}};
   }
   return json;
 }
@@ -98,18 +99,19 @@ inline void print(std::string_view name, const explain::Mass& mass) {
 
 inline void print(std::string_view name, const explain::MapReport& report) {
   const auto& p = report.pointing;
-  fmt::print("  {:<22} points at a target {:.3f} (chance {:.3f}), at a named object {:.3f} ({:.3f})\n",
-             name, p.target.value(), p.target_chance.value(), p.named.value(),
-             p.named_chance.value());
+  fmt::print(
+      "  {:<22} points at a target {:.3f} (chance {:.3f}), at a named object {:.3f} ({:.3f})\n",
+      name, p.target.value(), p.target_chance.value(), p.named.value(), p.named_chance.value());
   print("", report.mass_in_view);
   const auto& f = report.faithfulness_in_view;
   for (const auto test : {Change::Test::deletion, Change::Test::insertion}) {
     for (const int k : explain::kDeletedCells) {
-      fmt::print("  {:<22} {} of {}: brightest {:.3f}, random others {:.3f}, other objects {:.3f}\n",
-                 "", test == Change::Test::deletion ? "deletion" : "insertion", k,
-                 f.of(test, Change::Cells::brightest, k).value(),
-                 f.of(test, Change::Cells::others, k).value(),
-                 f.of(test, Change::Cells::objects, k).value());
+      fmt::print(
+          "  {:<22} {} of {}: brightest {:.3f}, random others {:.3f}, other objects {:.3f}\n", "",
+          test == Change::Test::deletion ? "deletion" : "insertion", k,
+          f.of(test, Change::Cells::brightest, k).value(),
+          f.of(test, Change::Cells::others, k).value(),
+          f.of(test, Change::Cells::objects, k).value());
     }
   }
 }
@@ -132,8 +134,8 @@ inline void print(const explain::Transparency& t) {
     fmt::print("  {:<22} F1 {:.4f}; alpha {:.3f} on bright words, {:.3f} on dark ones\n", "mask",
                t.mask().f1(), t.mask().bright.value(), t.mask().dark.value());
     fmt::print("  {:<22} follows {} of {} changes of c_t at once, {} in all, after {:.2f} steps\n",
-               "", t.mask_delay().at_once(), t.mask_delay().changes(),
-               t.mask_delay().steps().count, t.mask_delay().steps().value());
+               "", t.mask_delay().at_once(), t.mask_delay().changes(), t.mask_delay().steps().count,
+               t.mask_delay().steps().value());
   }
 }
 

@@ -39,12 +39,14 @@ class IdReader {
   std::string_view rest_;
 };
 
-// Wordgaze-{One,Two}-N{N}-K{K}[-auto]-v0, or nothing.
+// Wordgaze-{One,Two,Three,Four}-N{N}-K{K}[-auto]-v0, or nothing.
 std::optional<LevelSpec> wordgaze_level(std::string_view id) {
   IdReader reader(id);
   int clauses = 0, size = 0, objects = 0;
   if (reader.skip("Wordgaze-One-N")) clauses = 1;
   if (reader.skip("Wordgaze-Two-N")) clauses = 2;
+  if (reader.skip("Wordgaze-Three-N")) clauses = 3;
+  if (reader.skip("Wordgaze-Four-N")) clauses = 4;
   if (clauses == 0 || !reader.read(size) || !reader.skip("-K") || !reader.read(objects)) {
     return std::nullopt;
   }
@@ -70,7 +72,8 @@ std::optional<LevelSpec> wordgaze_level(std::string_view id) {
 // The three ids that are written most like this one.
 std::string nearest_ids(std::string_view id) {
   std::vector<std::string> ids = level_ids();
-  ids.insert(ids.end(), {"Wordgaze-One-N8-K4-v0", "Wordgaze-Two-N8-K4-v0"});
+  ids.insert(ids.end(), {"Wordgaze-One-N8-K4-v0", "Wordgaze-Two-N8-K4-v0",
+                         "Wordgaze-Three-N8-K4-v0", "Wordgaze-Four-N8-K4-v0"});
   std::stable_sort(ids.begin(), ids.end(), [&](const std::string& a, const std::string& b) {
     return edit_distance(id, a) < edit_distance(id, b);
   });

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <span>
+
 #include "generators.hpp"
 
 namespace wordgaze::babyai::generators {
@@ -8,29 +11,44 @@ Clause draw_clause(Layout& layout, grid::ObjectId target) {
   return {.verb = layout.pick(kVerbs), .object = layout.describe(target)};
 }
 
+/// Joins the clauses in one of the ways of the grammar, each as likely. More than two have an
+/// order, for "and" joins two.
+Instruction join(Layout& layout, const std::array<Clause, Instruction::kMaxClauses>& c) {
+  const int clauses = layout.level.clauses;
+  if (clauses == 1) return single(c[0]);
+  constexpr std::array kJoins{Order::any, Order::before, Order::after};
+  const Order order =
+      layout.pick(clauses == 2 ? std::span<const Order>(kJoins) : std::span(kJoins).subspan(1));
+  if (order == Order::any) return both(c[0], c[1]);
+  if (clauses == 2) return ordered(single(c[0]), order, single(c[1]));
+  if (clauses == 4) return ordered(both(c[0], c[1]), order, both(c[2], c[3]));
+  return layout.rng.below(2) == 0 ? ordered(both(c[0], c[1]), order, single(c[2]))
+                                  : ordered(single(c[0]), order, both(c[1], c[2]));
+}
+
 }  // namespace
 
-// Wordgaze-One and Wordgaze-Two: one or two of the objects in the room are targets.
+// Wordgaze-One to Wordgaze-Four: as many of the objects in the room are targets.
 void one_room_task(Layout& layout) {
   layout.place_agent();
   const grid::ObjectRange objects =
       layout.scatter(std::nullopt, layout.level.objects, layout.level.unique);
   layout.require_reachable();
 
-  const int first = layout.rng.below(objects.size());
-  if (layout.level.clauses == 1) {
-    layout.task.instruction = single(draw_clause(layout, objects[first]));
-    return;
+  std::array<grid::ObjectId, grid::kMaxObjects> left{};
+  for (int i = 0; i < objects.size(); ++i) left[static_cast<std::size_t>(i)] = objects[i];
+  std::array<grid::ObjectId, Instruction::kMaxClauses> targets{};
+  for (int i = 0; i < layout.level.clauses; ++i) {
+    auto* drawn = left.data() + layout.rng.below(objects.size() - i);
+    targets[static_cast<std::size_t>(i)] = *drawn;
+    std::copy(drawn + 1, left.data() + left.size(), drawn);
   }
-  // The second target is drawn from those left.
-  int second = layout.rng.below(objects.size() - 1);
-  if (second >= first) ++second;
-  if (layout.describe(objects[first]) == layout.describe(objects[second])) throw grid::Rejected{};
-  const Clause a = draw_clause(layout, objects[first]);
-  const Clause b = draw_clause(layout, objects[second]);
-  constexpr std::array kJoins{Order::any, Order::before, Order::after};
-  const Order order = layout.pick(kJoins);
-  layout.task.instruction = order == Order::any ? both(a, b) : ordered(single(a), order, single(b));
+  std::array<Clause, Instruction::kMaxClauses> c{};
+  for (int i = 0; i < layout.level.clauses; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    c[k] = draw_clause(layout, targets[k]);
+  }
+  layout.task.instruction = join(layout, c);
 }
 
 }  // namespace wordgaze::babyai::generators

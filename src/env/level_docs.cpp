@@ -148,9 +148,10 @@ actions but Dynamic-Obstacles, which has the first three.
 
 Besides these there are Wordgaze's own one-room tasks, for any room and number of objects that fit:
 `Wordgaze-One-N8-K4-v0` has one target among 4 objects of different kinds in a room of 8 x 8 cells
-(walls included), `Wordgaze-Two-N8-K4-v0` two targets joined by "and", ", then" or "after you". Each
-clause is declared by its own `done`; in the same ids with `-auto` (`Wordgaze-One-N8-K4-auto-v0`)
-the verifier decides by itself. N is at least 5; K is at most 18, and at most half the free cells.
+(walls included), `Wordgaze-Two-N8-K4-v0` two targets joined by "and", ", then" or "after you",
+`Wordgaze-Three-N8-K4-v0` and `Wordgaze-Four-N8-K4-v0` three and four as in "A and B, then C" and "A
+and B after you C and D". Each clause is declared by its own `done`; in the same ids with `-auto`
+(`Wordgaze-One-N8-K4-auto-v0`) the verifier decides by itself. N is at least 5; K is at most 18, and at most half the free cells.
 
 The six MiniGrid-WFC levels are left out: the patterns that they are made from are missing from the
 reference's own package.

@@ -12,7 +12,8 @@ std::size_t brightest(std::span<const float> map) {
 
 void Pointing::add(std::span<const float> map, const Roles& roles) {
   const Role pointed = roles[brightest(map)];
-  const auto objects = std::count_if(roles.begin(), roles.end(), [](Role role) { return is_object(role); });
+  const auto objects =
+      std::count_if(roles.begin(), roles.end(), [](Role role) { return is_object(role); });
   // Roles are ordered: targets are named too.
   const auto play = [&](Role least, Mean& hit, Mean& chance) {
     const auto in_view =

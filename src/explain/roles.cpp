@@ -18,9 +18,8 @@ Role role_of(Type type, grid::Color color, const babyai::Instruction& instructio
   Role role = Role::distractor;
   for (std::size_t i = 0; i < turn.size(); ++i) {
     const auto& clause = instruction.clause[i];
-    const bool meant =
-        fits(clause.object, type, color) ||
-        (clause.verb == babyai::Verb::put_next && fits(clause.next_to, type, color));
+    const bool meant = fits(clause.object, type, color) ||
+                       (clause.verb == babyai::Verb::put_next && fits(clause.next_to, type, color));
     if (meant) role = std::min(role, turn[i] ? Role::target : Role::named);
   }
   return role;

@@ -27,14 +27,14 @@ TEST(Level, TakesItsNumbersFromTheName) {
   EXPECT_EQ(level.objects, 5);
   EXPECT_EQ(level.clauses, 2);
   EXPECT_EQ(level.done_mode, DoneMode::sequential);
+  EXPECT_EQ(find_level("Wordgaze-Four-N10-K4-v0").clauses, 4);
   EXPECT_EQ(find_level("Wordgaze-One-N8-K4-auto-v0").done_mode, DoneMode::off);
 }
 
 TEST(Level, RefusesNamesThatOnlyResembleOne) {
-  for (const char* id :
-       {"Wordgaze-One-N8-K4", "Wordgaze-One-N8-K4-v0 ", "Wordgaze-One-N8-K4-v1",
-        "Wordgaze-Three-N8-K4-v0", "Wordgaze-One-N-K4-v0", "Wordgaze-One-N8-K-4-v0",
-        "Wordgaze-One-N88888-K4-v0", "Wordgaze-One-N8-K4-auto-auto-v0", ""}) {
+  for (const char* id : {"Wordgaze-One-N8-K4", "Wordgaze-One-N8-K4-v0 ", "Wordgaze-One-N8-K4-v1",
+                         "Wordgaze-Five-N8-K4-v0", "Wordgaze-One-N-K4-v0", "Wordgaze-One-N8-K-4-v0",
+                         "Wordgaze-One-N88888-K4-v0", "Wordgaze-One-N8-K4-auto-auto-v0", ""}) {
     EXPECT_THROW(find_level(id), std::invalid_argument) << id;
   }
 }

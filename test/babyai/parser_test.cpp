@@ -32,7 +32,8 @@ TEST_P(GeneratedMission, IsReadAsItWasMeant) {
 std::vector<std::string> babyai_ids() {
   std::vector<std::string> ids = level_ids();
   std::erase_if(ids, [](const std::string& id) { return !id.starts_with("BabyAI-"); });
-  ids.insert(ids.end(), {"Wordgaze-One-N8-K4-v0", "Wordgaze-Two-N8-K4-v0"});
+  ids.insert(ids.end(), {"Wordgaze-One-N8-K4-v0", "Wordgaze-Two-N8-K4-v0",
+                         "Wordgaze-Three-N8-K4-v0", "Wordgaze-Four-N8-K4-v0"});
   return ids;
 }
 

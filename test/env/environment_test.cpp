@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <set>
 
 #include "wordgaze/env/random_policy.hpp"
 
@@ -253,6 +254,27 @@ TEST(Environment, TruncatesAtItsStepLimit) {
   while (!t.truncated && !t.terminated) t = env.step(Action::toggle);
   EXPECT_TRUE(t.truncated || t.terminated);
   EXPECT_LE(env.step_count(), 16);
+}
+
+TEST(Environment, JoinsThreeAndFourClausesInEveryWayOfTheGrammar) {
+  for (const auto& [id, ways] :
+       {std::pair{"Wordgaze-Three-N8-K4-v0", 4u}, std::pair{"Wordgaze-Four-N8-K4-v0", 2u}}) {
+    Environment env(id);
+    std::set<std::pair<int, babyai::Order>> seen;
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+      env.reset(seed);
+      const auto& instruction = env.instruction();
+      seen.emplace(instruction.first_part, instruction.order);
+      std::set<std::pair<int, int>> kinds;
+      for (int k = 0; k < instruction.clauses(); ++k) {
+        const auto& object = instruction.clause[static_cast<std::size_t>(k)].object;
+        kinds.emplace(static_cast<int>(object.type.value()),
+                      static_cast<int>(object.color.value()));
+      }
+      EXPECT_EQ(kinds.size(), static_cast<std::size_t>(instruction.clauses())) << seed;
+    }
+    EXPECT_EQ(seen.size(), ways) << id;
+  }
 }
 
 }  // namespace

@@ -120,8 +120,10 @@ TEST_P(InstructionLevel, SucceedsExactlyWhenAllClausesAreCompleted) {
 
 std::vector<std::string> all_ids() {
   std::vector<std::string> ids = babyai::level_ids();
-  ids.insert(ids.end(), {"Wordgaze-One-N8-K4-v0", "Wordgaze-Two-N8-K4-v0", "Wordgaze-Two-N6-K5-v0",
-                         "Wordgaze-Two-N8-K4-auto-v0", "Wordgaze-One-N64-K18-v0"});
+  ids.insert(ids.end(),
+             {"Wordgaze-One-N8-K4-v0", "Wordgaze-Two-N8-K4-v0", "Wordgaze-Two-N6-K5-v0",
+              "Wordgaze-Two-N8-K4-auto-v0", "Wordgaze-Three-N8-K4-v0", "Wordgaze-Four-N10-K5-v0",
+              "Wordgaze-Three-N8-K4-auto-v0", "Wordgaze-One-N64-K18-v0"});
   return ids;
 }
 

@@ -34,7 +34,7 @@ TEST(Faithfulness, OfAMapThatNamesTheOnlyCellThatMattersIsPerfect) {
   EXPECT_NEAR(faithfulness.of(Kind::insertion, Cells::brightest, 1).value(), 0, 1e-6);
   // Without the cell that matters, keeping others is the same as blanking it.
   EXPECT_NEAR(faithfulness.of(Kind::insertion, Cells::others, 1).value(),
-                   faithfulness.of(Kind::deletion, Cells::brightest, 1).value(), 1e-6);
+              faithfulness.of(Kind::deletion, Cells::brightest, 1).value(), 1e-6);
 }
 
 TEST(Faithfulness, OfAMapThatNamesAnotherCellIsNone) {

@@ -7,8 +7,8 @@
 
 namespace wordgaze::explain {
 
-/// How well the mask alpha > 0.5 agrees with the true one over the words of clauses; words that join
-/// clauses are left out, they are always bright. "Positive" is a bright word.
+/// How well the mask alpha > 0.5 agrees with the true one over the words of clauses; words that
+/// join clauses are left out, they are always bright. "Positive" is a bright word.
 struct MaskQuality {
   std::int64_t true_positive = 0, false_positive = 0, false_negative = 0, true_negative = 0;
   Mean bright, dark;  ///< alpha of the words that the true mask keeps, and of those it silences

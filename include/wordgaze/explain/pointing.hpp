@@ -8,8 +8,9 @@ namespace wordgaze::explain {
 /// The brightest cell of a map; of equally bright ones the first.
 std::size_t brightest(std::span<const float> map);
 
-/// The pointing game: does the brightest cell of a map hold what the mission is about? Counted where
-/// such an object is in view. Beside it the chance that a random object in view would have been one.
+/// The pointing game: does the brightest cell of a map hold what the mission is about? Counted
+/// where such an object is in view. Beside it the chance that a random object in view would have
+/// been one.
 struct Pointing {
   Mean target, target_chance;  ///< an object of a clause whose turn it is
   Mean named, named_chance;    ///< an object of any clause

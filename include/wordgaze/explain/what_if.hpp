@@ -3,8 +3,8 @@
 
 namespace wordgaze::explain {
 
-/// Asks an agent about a decision again: what would it have done had it seen something else? Mission,
-/// completion vector and memory are those of the decision.
+/// Asks an agent about a decision again: what would it have done had it seen something else?
+/// Mission, completion vector and memory are those of the decision.
 class WhatIf {
  public:
   WhatIf(const rl::Agent& agent, const rl::Agent::Params& params);
