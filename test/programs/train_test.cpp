@@ -53,6 +53,9 @@ TEST_F(Train, StartsASecondPhaseFromTheWeightsOfAFirst) {
   EXPECT_TRUE(
       succeeded(run("train --config tiny.toml --out b --init a/checkpoint.safetensors "
                     "--set model.task_attention=true --set env=Wordgaze-Two-N8-K4-v0")));
+  EXPECT_TRUE(
+      succeeded(run("train --config tiny.toml --out c --init a/checkpoint.safetensors "
+                    "--set model.completion_input=true --set env=Wordgaze-Two-N8-K4-v0")));
 }
 
 TEST_F(Train, RefusesUnknownKeys) {
