@@ -20,6 +20,17 @@ class Failure(Exception):
     """What the user is to be told, without a traceback."""
 
 
+def at_least(kind, least):
+    """A type of option."""
+    def parse(text):
+        value = kind(text)
+        if value < least:
+            raise argparse.ArgumentTypeError(f"{text}: expected at least {least}")
+        return value
+    parse.__name__ = kind.__name__
+    return parse
+
+
 def options(description, rounds, seconds):
     parser = argparse.ArgumentParser(description=description,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -27,8 +38,8 @@ def options(description, rounds, seconds):
                         help="where Wordgaze is built (build/release)")
     parser.add_argument("--venv", default=ROOT / "build/peers", type=pathlib.Path,
                         help="virtual environment, made when missing (build/peers)")
-    parser.add_argument("--rounds", default=rounds, type=int, help=f"({rounds})")
-    parser.add_argument("--seconds", default=seconds, type=float,
+    parser.add_argument("--rounds", default=rounds, type=at_least(int, 1), help=f"({rounds})")
+    parser.add_argument("--seconds", default=seconds, type=at_least(float, 0.01),
                         help=f"of one measurement, at least ({seconds})")
     return parser
 
@@ -126,7 +137,9 @@ def machine(build):
     flags = [setting("CMAKE_CXX_FLAGS"), setting("CMAKE_CXX_FLAGS_RELEASE"),
              "-march=native" if setting("WORDGAZE_NATIVE") == "ON" else ""]
     try:
-        commit = capture(["git", "-C", ROOT, "describe", "--always", "--dirty", "--exclude=*"]).strip()
+        commit = capture(["git", "-C", ROOT, "rev-parse", "--short", "HEAD"]).strip()
+        if capture(["git", "-C", ROOT, "status", "--porcelain", "--", ".", ":!docs"]):
+            commit += " with changes"
     except Failure:
         commit = "unknown"
     return {"processor": cpu[1] if cpu else platform.processor(),

@@ -6,6 +6,7 @@ from statistics import median
 
 from measure import DATA, ROOT
 
+NOTES = DATA.with_name("performance_notes.md")  # by hand: why a target is not met, what was tried
 PROTOTYPE = 11_300  # frames per CPU-second of the prototype that the recipe was found with
 HEAD = """# Performance
 
@@ -123,15 +124,16 @@ def targets(data):
 
 
 def setting(section, torch=None):
-    m = section["machine"]
-    text = (f"`{section['command']}`: {section['rounds']} round{'s' if section['rounds'] > 1 else ''} of {section['seconds']:g} s, on {m['cores']} "
-            f"cores of {m['processor']}, at commit {m['commit']}; {m['compiler']}, `{m['flags']}`")
+    m, rounds = section["machine"], section["rounds"]
+    parts = [f"`{section['command']}`: {rounds} round{'s' if rounds > 1 else ''} of "
+             f"{section['seconds']:g} s, on {m['cores']} cores of {m['processor']}",
+             f"commit {m['commit']}, {m['compiler']}, `{m['flags']}`"]
     if torch:
         forced = torch["OPENBLAS_CORETYPE"]
-        text += (f"; PyTorch {torch['torch']} with {torch['blas']}, kernels for {torch['kernel']} (OPENBLAS_CORETYPE "
-                 f"{'= ' + forced if forced else 'not set'})"
-                 f"{', with oneDNN' if torch['onednn'] else ''}")
-    return text + "."
+        parts.append(f"PyTorch {torch['torch']} {'with' if torch['onednn'] else 'without'} oneDNN, BLAS "
+                     f"{torch['blas']} with kernels for {torch['kernel']} (OPENBLAS_CORETYPE "
+                     f"{'= ' + forced if forced else 'is not set'})")
+    return ";\n".join(parts) + "."
 
 
 def peers_section(peers):
@@ -161,7 +163,8 @@ New episodes alone:
 The whole loop of recurrent PPO with the same network, batch and settings.
 [torch_peer.py](../scripts/performance/torch_peer.py) has PyTorch's own layers and autograd, and its `check` computes
 the numbers of our reference data. PyTorch's environments are free, recorded and replayed from memory; ours
-include the simulator.
+include the simulator. PyTorch's threads spin while they wait for each other, so with two of them its figure is only
+good on a machine that does nothing else.
 
 {peer_table(by_group["learner"])}
 
@@ -237,6 +240,8 @@ their gradients; the rest: losses, sampling, copying frames.
 def main():
     data = json.loads(DATA.read_text())
     parts = [HEAD, "## Targets\n\n" + table(["target", "measured", ""], targets(data))]
+    if NOTES.exists():
+        parts.append(NOTES.read_text().strip())
     if "peers" in data:
         parts.append(peers_section(data["peers"]))
     if "growth" in data:
