@@ -8,6 +8,21 @@ namespace wordgaze::rl {
 
 using babyai::Verb;
 
+namespace {
+
+/// Marks a clause whose turn it is; where there are several, either is a fair start.
+void complete_one(env::Environment& environment, core::Rng& rng) {
+  std::vector<int> clauses;
+  const auto turn = environment.declarable();
+  for (int k = 0; k < static_cast<int>(turn.size()); ++k) {
+    if (turn[static_cast<std::size_t>(k)]) clauses.push_back(k);
+  }
+  const int pick = clauses.size() > 1 ? rng.below(static_cast<int>(clauses.size())) : 0;
+  environment.mark_completed(clauses[static_cast<std::size_t>(pick)]);
+}
+
+}  // namespace
+
 void Curriculum::Window::add(bool s) {
   success[next] = s;
   next = (next + 1) % kWindow;
@@ -38,15 +53,12 @@ bool Curriculum::prepare(env::Environment& environment, core::Rng& rng) const {
     }
   }
   if (wanted != environment.instruction()) environment.set_instruction(wanted);
-  if (half_done_ > 0 && wanted.clauses() > 1 && rng.uniform() < half_done_) {
-    const auto turn = environment.declarable();
-    // Where both clauses may be first, either is a fair start.
-    const auto both = std::count(turn.begin(), turn.end(), 1) > 1;
-    const auto first = std::find(turn.begin(), turn.end(), 1) - turn.begin();
-    environment.mark_completed(both ? rng.below(2) : static_cast<int>(first));
-    return true;
-  }
-  return false;
+  if (half_done_ == 0 || wanted.clauses() < 2 || rng.uniform() >= half_done_) return false;
+  // From one clause to all but one, in an order that the mission allows.
+  const int most = wanted.clauses() - 1;
+  const int marks = most > 1 ? 1 + rng.below(most) : 1;
+  for (int i = 0; i < marks; ++i) complete_one(environment, rng);
+  return true;
 }
 
 void Curriculum::observe(const std::vector<Outcome>& outcomes, std::int64_t frames) {

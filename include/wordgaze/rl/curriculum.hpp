@@ -12,20 +12,20 @@ namespace wordgaze::rl {
 struct Outcome {
   babyai::Verb verb{};  ///< of the first clause
   int clauses = 1;
-  bool helped = false;  ///< the curriculum had marked a clause as done
+  bool helped = false;  ///< the curriculum had marked clauses as done
   bool success = false, truncated = false;
   int steps = 0;
   double episode_return = 0;
 };
 
 /// Decides what training episodes ask for. Worlds come from the level; the curriculum changes
-/// verbs, cuts a mission down to a clause, or marks the first clause as done. It learns from
+/// verbs, cuts a mission down to a clause, or marks the first clauses as done. It learns from
 /// outcomes between rollouts only, so that lanes can ask it at the same time.
 class Curriculum {
  public:
   explicit Curriculum(const CurriculumConfig& config);
 
-  /// Changes the episode that has just begun. True if it marked a clause as done.
+  /// Changes the episode that has just begun. True if it marked clauses as done.
   bool prepare(env::Environment& environment, core::Rng& rng) const;
 
   /// Learns from what ended since the last call; `frames` were seen in all.
