@@ -207,7 +207,7 @@ minibatches of 32 sequences at every number of environments) per CPU-second.
 
 {table(["mission", *units], rates("mission", mission))}
 
-{table(["threads, per second of wall time", *units], rates("threads", key="wall"))}
+{table(["threads (simulator: 4096 environments), per second of wall time", *units], rates("threads", key="wall"))}
 
 Memory of one environment, the growth of the resident size from 16,384 to 262,144 of them, without the caller's
 buffers and with all that the program keeps of each:
@@ -219,9 +219,9 @@ buffers and with all that the program keeps of each:
 
 ## Where the time of training goes
 
-Shares of the samples that `perf` took of `bench --train configs/single.toml --threads 1`. Acting and forward are the same
-code, with the 128 lanes of one step and with a minibatch; tables: rebuilt after each change of the weights, and
-their gradients; the rest: losses, sampling, copying frames.
+Shares of the samples that `perf` took of `bench --train configs/single.toml --threads 1`. Acting and forward
+are the same code, with the 128 lanes of one step and with a minibatch; tables: rebuilt after each change of the
+weights, and their gradients; the rest: losses, sampling, copying frames.
 
 {table(["phase", "share"], shares)}"""
     if growth["time_to_result"]:

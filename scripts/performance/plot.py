@@ -36,7 +36,7 @@ def main():
         row[0].set_ylabel(f"{label}\nper CPU-second")
     figure.tight_layout()
     target = ROOT / "docs/images/growth.png"
-    figure.savefig(target, dpi=100)
+    figure.savefig(target, dpi=90)
     print(target)
 
 
