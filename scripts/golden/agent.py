@@ -16,6 +16,7 @@ import torch.nn.functional as F
 
 SEED = 20260102
 TYPES, COLORS, STATES, VIEW, ACTIONS, VOCABULARY = 11, 6, 3, 7, 7, 55
+FEATURES, TAPS = TYPES + COLORS + STATES, 9
 SIZES = {"channels": 3, "word_size": 4, "key_size": 3, "memory_size": 3, "text_size": 3,
          "head_size": 4, "task_size": 5, "task_words": 13, "clauses": 2}
 VARIANTS = {
@@ -24,6 +25,8 @@ VARIANTS = {
     "attention_p2": {"attention": True, "gaze_exponent": 2, "entropy_base": 49},
     "task_attention": {"attention": True, "task_attention": True, "gaze_exponent": 2,
                        "entropy_base": 49},
+    "attention_3x3": {"attention": True, "encoder": "3x3"},
+    "baseline_3x3": {"attention": False, "encoder": "3x3"},
 }
 # Ids of the vocabulary: "go to the red ball", "pick up the blue key, then go to the grey box".
 MISSIONS = [[18, 47, 45, 40, 7], [36, 50, 45, 9, 24, 1, 46, 18, 47, 45, 21, 10]]
@@ -40,8 +43,12 @@ def gaussian(choice, *shape, scale=0.6):
 def random_parameters(choice, config):
     c, e, d, h = (config[k] for k in ("channels", "word_size", "key_size", "memory_size"))
     g, hidden, task = config["text_size"], config["head_size"], config["task_size"]
-    shapes = {"visual.weight": (c, TYPES + COLORS + STATES), "visual.bias": (c,),
-              "words": (e, VOCABULARY)}
+    if config["encoder"] == "3x3":  # a block of columns a tap, taps row by row
+        shapes = {"patches.first.weight": (c, TAPS * FEATURES), "patches.first.bias": (c,),
+                  "patches.second.weight": (c, TAPS * c), "patches.second.bias": (c,)}
+    else:
+        shapes = {"visual.weight": (c, FEATURES), "visual.bias": (c,)}
+    shapes |= {"words": (e, VOCABULARY)}
     if config["attention"]:
         shapes |= {"attention.query": (d, e), "attention.key": (d, c)}
     shapes |= {"memory.input_weight": (4 * h, VIEW * VIEW * c), "memory.hidden_weight": (4 * h, h),
@@ -72,10 +79,24 @@ def random_frame(choice, config, step, lane):
 
 def one_hot(image):
     """[1, 20, 7, 7]"""
-    hot = torch.zeros(TYPES + COLORS + STATES, VIEW * VIEW)
+    hot = torch.zeros(FEATURES, VIEW * VIEW)
     for cell, (kind, color, state) in enumerate(image):
         hot[kind, cell] = hot[TYPES + color, cell] = hot[TYPES + COLORS + state, cell] = 1
     return hot.view(1, -1, VIEW, VIEW)
+
+
+def encode_view(p, config, image):
+    """O~ [C, 49]"""
+    view, leak = one_hot(image), config["encoder_leak"]
+    if config["encoder"] == "3x3":
+        for layer in ("patches.first", "patches.second"):
+            weight, bias = p[f"{layer}.weight"], p[f"{layer}.bias"]
+            kernels = weight.view(len(bias), 3, 3, -1).permute(0, 3, 1, 2)
+            view = F.leaky_relu(F.conv2d(view, kernels, bias, padding=1), leak)
+    else:
+        kernels = p["visual.weight"][:, :, None, None]
+        view = F.leaky_relu(F.conv2d(view, kernels, p["visual.bias"]), leak)
+    return view.flatten(2)[0]
 
 
 def encode_text(p, mission):
@@ -119,9 +140,7 @@ def run_lane(p, config, frames, h, c):
     for frame in frames:
         h, c = h * frame["keep"], c * frame["keep"]
         mission = MISSIONS[frame["mission"]]
-        view = F.conv2d(one_hot(frame["image"]), p["visual.weight"][:, :, None, None],
-                        p["visual.bias"]).flatten(2)[0]
-        view = F.leaky_relu(view, config["encoder_leak"])
+        view = encode_view(p, config, frame["image"])
         filtered, seen = filter_view(p, config, view, mission, frame["completion"])
         h, c = (s[0] for s in torch.lstm_cell(
             filtered.T.reshape(1, -1), (h[None], c[None]), p["memory.input_weight"],
@@ -142,7 +161,7 @@ def numbers(value):
 
 def make(name, variant):
     config = SIZES | {"task_attention": False, "gaze_exponent": 2, "entropy_base": 49,
-                      "encoder_leak": 0.1} | variant
+                      "encoder_leak": 0.1, "encoder": "1x1"} | variant
     choice = random.Random(f"{SEED} {name}")
     given = random_parameters(choice, config)
     frames = [random_frame(choice, config, t, b) for t in range(STEPS) for b in range(LANES)]

@@ -52,14 +52,15 @@ WhatIf::Saliency WhatIf::saliency(const rl::Decision& decision) {
                             cache_.dfeatures.topRows(agent_->config.memory_size), cache_.memory,
                             grads_.memory);
   const Vector<float> dproduct = cache_.memory.dgates.col(0);
-  const Index channels = agent_->config.channels, codes = agent_->alphabet.size();
+  const Index channels = agent_->config.channels;
   Saliency saliency{Vector<float>(grid::kViewCells), Vector<float>(grid::kViewCells)};
   for (Index c = 0; c < grid::kViewCells; ++c) {
-    const Index code = view(c, 0);
     const auto weight = params_->memory.input_weight.middleCols(c * channels, channels);
-    const float scale = agent_->config.attention ? cache_.attention.scale(code, 0) : 1.0f;
-    saliency.gradient(c) = (weight.transpose() * dproduct).norm();
-    saliency.product(c) = std::abs(scale * tables_.input.col(c * codes + code).dot(dproduct));
+    const Vector<float> dfiltered = weight.transpose() * dproduct;
+    const float scale = agent_->scale(cache_)(agent_->kind(view, c, 0), 0);
+    saliency.gradient(c) = dfiltered.norm();
+    saliency.product(c) =
+        std::abs(scale * agent_->encoding(tables_, cache_, view, c, 0).dot(dfiltered));
   }
   return saliency;
 }

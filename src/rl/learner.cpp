@@ -18,8 +18,10 @@ Learner::Learner(const Agent& agent, const PpoConfig& ppo, Agent::Params params,
   for (Worker& worker : workers_) {
     worker.grads = nn::zeros_like(params_);
     worker.dtables = agent.make_tables();
-    // The input weight's gradient comes from the tables alone and lies with the first worker.
-    if (&worker != &workers_.front()) worker.grads.memory.input_weight.resize(0, 0);
+    // With 1x1 the input weight's gradient comes from the tables alone and lies with the first.
+    if (&worker != &workers_.front() && !agent.sees_patches()) {
+      worker.grads.memory.input_weight.resize(0, 0);
+    }
   }
   update_tables();
 }
@@ -32,6 +34,7 @@ void Learner::restore(Agent::Params params, optim::Adam<Agent::Params> adam) {
 
 void Learner::update_tables() {
   agent_->update_tables(params_, tables_);
+  if (agent_->sees_patches()) return;
   team_->run([&](int w) {
     const auto [from, to] = team_->share(grid::kViewCells, w);
     agent_->update_input_table(params_, from, to, tables_);
@@ -188,6 +191,23 @@ void Learner::differentiate(const Minibatch& batch, std::span<const int> sequenc
 /// The sum over workers, in their order, with the tables' gradients turned into those of weights.
 void Learner::sum_gradients() {
   Worker& first = workers_.front();
+  if (!agent_->sees_patches()) sum_input_tables();
+  for (std::size_t other = 1; other < workers_.size(); ++other) {
+    Worker& worker = workers_[other];
+    nn::for_each_parameter(
+        [](const nn::Path&, auto& sum, const auto& part) {
+          if (part.size() > 0) sum += part;
+        },
+        first.grads, worker.grads);
+    Agent::for_each_small_table([](auto& sum, const auto& part) { sum += part; }, first.dtables,
+                                worker.dtables);
+  }
+  agent_->tables_backward(params_, tables_, first.dtables, first.grads);
+}
+
+/// The input tables are large, so workers share their cells out.
+void Learner::sum_input_tables() {
+  Worker& first = workers_.front();
   const Index codes = agent_->alphabet.size();
   team_->run([&](int w) {
     const auto [from, to] = team_->share(grid::kViewCells, w);
@@ -200,19 +220,6 @@ void Learner::sum_gradients() {
     agent_->input_table_backward(params_, tables_, first.dtables, from, to, first.grads,
                                  worker.dtables.visual);
   });
-  for (std::size_t other = 1; other < workers_.size(); ++other) {
-    Worker& worker = workers_[other];
-    nn::for_each_parameter(
-        [](const nn::Path&, auto& sum, const auto& part) {
-          if (part.size() > 0) sum += part;
-        },
-        first.grads, worker.grads);
-    first.dtables.visual += worker.dtables.visual;
-    first.dtables.attention.scores += worker.dtables.attention.scores;
-    first.dtables.text += worker.dtables.text;
-    first.dtables.words += worker.dtables.words;
-  }
-  agent_->tables_backward(params_, tables_, first.dtables, first.grads);
 }
 
 }  // namespace wordgaze::rl

@@ -9,16 +9,16 @@ void look(const Agent& agent, const Actor& actor, int lane, const env::Environme
   if (!agent.config.attention) return;
   const auto length = environment.sentence().length;
   const auto& attention = actor.cache().attention;
-  const auto cells = actor.frames().cells.col(lane);
+  const auto kind = [&](Index cell) { return agent.kind(actor.frames().cells, cell, lane); };
   for (Index i = 0; i < length; ++i) {
     sight.weights.push_back(attention.weights(i, lane));
     sight.mask.push_back(actor.cache().alpha(i, lane));
     for (Index c = 0; c < grid::kViewCells; ++c) {
-      sight.maps.push_back(attention.maps(cells(c), attention.map(lane, i)));
+      sight.maps.push_back(attention.maps(kind(c), attention.map(lane, i)));
     }
   }
   for (Index c = 0; c < grid::kViewCells; ++c) {
-    sight.gaze.push_back(attention.gaze(cells(c), lane));
+    sight.gaze.push_back(attention.gaze(kind(c), lane));
   }
 }
 

@@ -49,7 +49,8 @@ struct AgentFixture {
       : agent{config, model::CellAlphabet::one_room()} {
     params = agent.make_params();
     randomize_parameters(params);
-    params.visual.bias.array() += S(1);  // away from the ReLU's corner
+    // Away from the ReLU's corner.
+    for (auto* bias : {&params.visual.bias, &params.patches.first.bias}) bias->array() += S(1);
     tables = agent.make_tables();
     frames.resize(config, shape);
     missions.index_of(sentence("go to the red ball"));

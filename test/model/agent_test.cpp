@@ -27,6 +27,11 @@ Config with_completion_input() {
   return c;
 }
 
+Config with_patches(Config c) {
+  c.encoder = Encoder::patch;
+  return c;
+}
+
 /// The agent written a second time from the equations: one-hot cells, all 49 of them, one frame and
 /// one word at a time, no tables.
 struct PlainTwin {
@@ -48,6 +53,42 @@ struct PlainTwin {
       h = (1 - z.array()) * n.array() + z.array() * h.array();
     }
     return h;
+  }
+
+  /// A convolution with square kernels of 1x1 or 3x3, zeros around the view, then the leaky ReLU.
+  Matrix<double> convolve(const Matrix<double>& weight, const Vector<double>& bias,
+                          const Matrix<double>& view) const {
+    const Index in = view.rows(), reach = weight.cols() == in ? 0 : 1;
+    Matrix<double> out(weight.rows(), 49);
+    for (Index a = 0; a < 7; ++a) {
+      for (Index b = 0; b < 7; ++b) {
+        Vector<double> sum = bias;
+        Index tap = 0;
+        for (Index da = -reach; da <= reach; ++da) {
+          for (Index db = -reach; db <= reach; ++db, ++tap) {
+            if (a + da < 0 || a + da > 6 || b + db < 0 || b + db > 6) continue;
+            sum += weight.middleCols(tap * in, in) * view.col((a + da) * 7 + b + db);
+          }
+        }
+        out.col(a * 7 + b) = sum.cwiseMax(f.agent.config.encoder_leak * sum);
+      }
+    }
+    return out;
+  }
+
+  /// O~ of a frame.
+  Matrix<double> encode(Index n) const {
+    Matrix<double> view = Matrix<double>::Zero(20, 49);
+    for (Index cell = 0; cell < 49; ++cell) {
+      const auto code = f.agent.alphabet[f.frames.cells(cell, n)];
+      view(code.type, cell) = view(11 + code.color, cell) = view(17 + code.state, cell) = 1;
+    }
+    const auto& p = f.params;
+    if (f.agent.config.encoder == Encoder::cell) {
+      return convolve(p.visual.weight, p.visual.bias, view);
+    }
+    return convolve(p.patches.second.weight, p.patches.second.bias,
+                    convolve(p.patches.first.weight, p.patches.first.bias, view));
   }
 
   /// Attention over the view: the map M, or nothing without attention.
@@ -95,14 +136,7 @@ struct PlainTwin {
         const Index n = x.shape.column(t, b);
         if (x.keep(0, n) == 0) h.setZero(), memory.setZero();
         const auto& s = f.missions[x.mission_of[static_cast<std::size_t>(n)]];
-        Matrix<double> encoding(c.channels, 49);
-        for (Index cell = 0; cell < 49; ++cell) {
-          Vector<double> one_hot = Vector<double>::Zero(20);
-          const auto code = f.agent.alphabet[x.cells(cell, n)];
-          one_hot(code.type) = one_hot(11 + code.color) = one_hot(17 + code.state) = 1;
-          const Vector<double> e = f.params.visual.weight * one_hot + f.params.visual.bias;
-          encoding.col(cell) = e.cwiseMax(c.encoder_leak * e);
-        }
+        const Matrix<double> encoding = encode(n);
         const Matrix<double> filtered = encoding * scale(n, encoding, s).asDiagonal();
         const auto& m = f.params.memory;
         Vector<double> z = m.input_weight * filtered.reshaped() + m.hidden_weight * h + m.bias;
@@ -194,19 +228,21 @@ TEST_P(AgentVariant, AllocatesNothingAfterTheFirstPass) {
   Eigen::internal::set_is_malloc_allowed(true);
 }
 
-INSTANTIATE_TEST_SUITE_P(Readings, AgentVariant,
-                         testing::Values(variant(false, false), variant(true, false),
-                                         variant(true, false, 1), variant(true, false, 3),
-                                         variant(true, true), variant(true, true, 1),
-                                         with_completion_input()),
-                         [](const auto& variant_info) {
-                           const Config& c = variant_info.param;
-                           return std::string(c.completion_input ? "CompletionInput"
-                                              : c.task_attention ? "TaskAttention"
-                                              : c.attention      ? "Attention"
-                                                                 : "Baseline") +
-                                  "P" + std::to_string(static_cast<int>(c.gaze_exponent));
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Readings, AgentVariant,
+    testing::Values(variant(false, false), variant(true, false), variant(true, false, 1),
+                    variant(true, false, 3), variant(true, true), variant(true, true, 1),
+                    with_completion_input(), with_patches(variant(false, false)),
+                    with_patches(variant(true, false)), with_patches(variant(true, true, 1))),
+    [](const auto& variant_info) {
+      const Config& c = variant_info.param;
+      return std::string(c.encoder == Encoder::patch ? "Patch" : "") +
+             std::string(c.completion_input ? "CompletionInput"
+                         : c.task_attention ? "TaskAttention"
+                         : c.attention      ? "Attention"
+                                            : "Baseline") +
+             "P" + std::to_string(static_cast<int>(c.gaze_exponent));
+    });
 
 TEST(Agent, AttentionIsADistribution) {
   AgentFixture<double> f(variant(true, true));
@@ -216,7 +252,7 @@ TEST(Agent, AttentionIsADistribution) {
     const int length = f.missions[f.frames.mission_of[static_cast<std::size_t>(n)]].length;
     for (int i = 0; i < length; ++i) {
       double sum = 0;
-      for (Index c = 0; c < 49; ++c) sum += a.maps(f.frames.cells(c, n), a.map(n, i));
+      for (Index c = 0; c < 49; ++c) sum += a.maps(f.agent.kind(f.frames.cells, c, n), a.map(n, i));
       EXPECT_NEAR(sum, 1, 1e-12);
     }
     EXPECT_NEAR(a.weights.col(n).sum(), 1, 1e-12);

@@ -17,6 +17,7 @@ Config config_of(const Json& j) {
   Config c;
   c.attention = j.at("attention");
   c.task_attention = j.at("task_attention");
+  c.encoder = j.at("encoder") == "3x3" ? Encoder::patch : Encoder::cell;
   c.channels = j.at("channels");
   c.word_size = j.at("word_size");
   c.key_size = j.at("key_size");
@@ -92,10 +93,11 @@ struct Reference {
     return test::matrix(list, count, size).transpose();
   }
 
-  /// One number a code as one a cell of frame n.
-  Vector<double> over_cells(Index n, const Matrix<double>& by_code, Index column) const {
+  /// One number a kind as one a cell of frame n.
+  Vector<double> over_cells(Index n, const Matrix<double>& by_kind, Index column) const {
     Vector<double> map(grid::kViewCells);
-    for (Index c = 0; c < grid::kViewCells; ++c) map(c) = by_code(frames.cells(c, n), column);
+    for (Index c = 0; c < grid::kViewCells; ++c)
+      map(c) = by_kind(agent.kind(frames.cells, c, n), column);
     return map;
   }
 };
@@ -165,7 +167,7 @@ TEST_P(ReferenceAgent, AgreesOnTheGradientOfEveryParameter) {
 
 INSTANTIATE_TEST_SUITE_P(PyTorch, ReferenceAgent,
                          testing::Values("baseline", "attention_p1", "attention_p2",
-                                         "task_attention"),
+                                         "task_attention", "attention_3x3", "baseline_3x3"),
                          [](const auto& variant) { return std::string(variant.param); });
 
 }  // namespace

@@ -39,6 +39,12 @@ bool same_bits(const Agent::Params& a, const Agent::Params& b) {
   return same;
 }
 
+TrainConfig small_patches(int threads) {
+  TrainConfig c = small(threads);
+  c.model.encoder = model::Encoder::patch;
+  return c;
+}
+
 struct TrainerVariant : testing::TestWithParam<TrainConfig> {};
 
 TEST_P(TrainerVariant, TheSameSeedRepeatsARunBitForBit) {
@@ -68,9 +74,11 @@ TEST_P(TrainerVariant, ARestoredRunGoesOnBitForBit) {
 
 INSTANTIATE_TEST_SUITE_P(Settings, TrainerVariant,
                          testing::Values(small(1), small(2), small_two_clauses(1),
-                                         small_two_clauses(2)),
+                                         small_two_clauses(2), small_patches(2)),
                          [](const auto& c) {
-                           return std::string(c.param.model.task_attention ? "Two" : "One") +
+                           const bool patches = c.param.model.encoder == model::Encoder::patch;
+                           return std::string(patches ? "Patches" : "") +
+                                  std::string(c.param.model.task_attention ? "Two" : "One") +
                                   "ClausesOn" + std::to_string(c.param.threads) + "Threads";
                          });
 

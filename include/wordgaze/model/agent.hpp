@@ -3,9 +3,12 @@
 #include "wordgaze/grid/action.hpp"
 #include "wordgaze/model/config.hpp"
 #include "wordgaze/model/filtered_input.hpp"
+#include "wordgaze/model/filtered_map.hpp"
 #include "wordgaze/model/head.hpp"
+#include "wordgaze/model/patch_encoder.hpp"
 #include "wordgaze/model/task_attention.hpp"
 #include "wordgaze/model/text_encoder.hpp"
+#include "wordgaze/model/text_visual_attention.hpp"
 #include "wordgaze/model/visual_encoder.hpp"
 #include "wordgaze/nn/lstm.hpp"
 
@@ -38,6 +41,10 @@ struct Frames {
 /// Work is split in two. Tables depend on the weights alone and are rebuilt once a weight version;
 /// frames only gather from them. So the backward pass of the frames ends in the gradients of the
 /// tables, and these turn into gradients of the weights once a minibatch.
+///
+/// The encoder decides how much of the visual half is a table. A 1x1 encoding is one, and so are
+/// its scores and its products with the memory's input weight (FilteredInput). A 3x3 encoding is a
+/// map a frame, of which the first layer alone is a table (PatchEncoder, FilteredMap).
 template <std::floating_point S>
 struct Agent {
   using Attention = TextVisualAttention<S>;
@@ -47,7 +54,8 @@ struct Agent {
   CellAlphabet alphabet;
 
   struct Params {
-    typename VisualEncoder<S>::Params visual;
+    typename VisualEncoder<S>::Params visual;  ///< empty with 3x3
+    typename PatchEncoder<S>::Params patches;  ///< empty with 1x1
     Matrix<S> words;  ///< [E, V] embeddings g~; column 0 (padding) is never read
     typename Attention::Params attention;
     typename Memory::Params memory;
@@ -56,25 +64,23 @@ struct Agent {
     Matrix<S> completion;                    ///< [4 H, clauses]; empty unless completion_input
     typename Head<S>::Params actor, critic;
     static constexpr auto fields() {
-      return std::tuple{nn::Field{"visual", &Params::visual},
-                        nn::Field{"words", &Params::words},
-                        nn::Field{"attention", &Params::attention},
-                        nn::Field{"memory", &Params::memory},
-                        nn::Field{"text", &Params::text},
-                        nn::Field{"task", &Params::task},
-                        nn::Field{"completion", &Params::completion},
-                        nn::Field{"actor", &Params::actor},
-                        nn::Field{"critic", &Params::critic}};
+      return std::tuple{
+          nn::Field{"visual", &Params::visual}, nn::Field{"patches", &Params::patches},
+          nn::Field{"words", &Params::words},   nn::Field{"attention", &Params::attention},
+          nn::Field{"memory", &Params::memory}, nn::Field{"text", &Params::text},
+          nn::Field{"task", &Params::task},     nn::Field{"completion", &Params::completion},
+          nn::Field{"actor", &Params::actor},   nn::Field{"critic", &Params::critic}};
     }
   };
 
   /// What depends on the weights alone. Its gradient has the same type.
   struct Tables {
-    Matrix<S> visual;                      ///< [C, P]
-    typename Attention::Tables attention;  ///< scores [P, V]
-    Matrix<S> input;                       ///< [4 H, 49 P]
-    Matrix<S> text;                        ///< [3 G, V]
-    Matrix<S> words;                       ///< [E, V]: only as a gradient, from the task module
+    Matrix<S> visual;                          ///< [C, P]; 1x1
+    typename PatchEncoder<S>::Tables patches;  ///< 3x3
+    typename Attention::Tables attention;
+    Matrix<S> input;  ///< [4 H, 49 P]; 1x1
+    Matrix<S> text;   ///< [3 G, V]
+    Matrix<S> words;  ///< [E, V]: only as a gradient, from the task module
   };
 
   struct Cache {
@@ -83,6 +89,9 @@ struct Agent {
     typename Memory::Cache memory;
     typename TextEncoder<S>::Cache text;
     typename Head<S>::Cache actor, critic;
+    typename PatchEncoder<S>::Cache patches;
+    Vector<S> score;                // [P]: scratch, of one word with 3x3
+    Matrix<S> filtered, dfiltered;  // [49 C, N]: F with 3x3
     Matrix<S> alpha;                // [words, N]: ones without the task module
     Matrix<S> dalpha;               // [words, N]
     Matrix<S> scale, dscale;        // [P, N]
@@ -93,6 +102,25 @@ struct Agent {
     const Matrix<S>& values() const { return critic.output; }  ///< [1, N]
   };
 
+  /// Whether the encoding sees neighbors (3x3), so that it is no table.
+  bool sees_patches() const { return config.encoder == Encoder::patch; }
+  /// P: numbers of a map; see TextVisualAttention.
+  Index kinds() const { return sees_patches() ? kMapSlots : alphabet.size(); }
+  /// Which of them belongs to a cell of frame n.
+  Index kind(const CellMatrix& cells, Index cell, Index n) const {
+    return sees_patches() ? map_slot(cell) : cells(cell, n);
+  }
+  /// O~ of a cell of frame n, after forward.
+  Vector<S> encoding(const Tables& t, const Cache& k, const CellMatrix& cells, Index cell,
+                     Index n) const {
+    if (sees_patches()) return map_frame(k.patches.output, n).col(map_slot(cell));
+    return t.visual.col(cells(cell, n));
+  }
+  /// s(M) [P, N], after forward; ones without attention.
+  const Matrix<S>& scale(const Cache& k) const {
+    return config.attention ? k.attention.scale : k.scale;
+  }
+
   Params make_params() const;
 
   Tables make_tables() const;
@@ -100,22 +128,34 @@ struct Agent {
   /// The tables of these weights, all but `input`.
   void update_tables(const Params& p, Tables& t) const;
   /// Cells [from, to) of the input table, after update_tables: the large one, to be shared out.
+  /// Only 1x1 has it.
   void update_input_table(const Params& p, Index from, Index to, Tables& t) const;
   void update_all_tables(const Params& p, Tables& t) const {
     update_tables(p, t);
-    update_input_table(p, 0, grid::kViewCells, t);
+    if (!sees_patches()) update_input_table(p, 0, grid::kViewCells, t);
   }
 
-  /// Cells [from, to) of dt.input -> memory.input_weight and dt.visual.
+  /// Cells [from, to) of dt.input -> memory.input_weight and dt.visual. Only 1x1 has it.
   void input_table_backward(const Params& p, const Tables& t, const Tables& dt, Index from,
                             Index to, Params& grads, Out<S> dvisual) const;
   /// The other tables' gradients -> weights; dt is used up.
   void tables_backward(const Params& p, const Tables& t, Tables& dt, Params& grads) const;
   void all_tables_backward(const Params& p, const Tables& t, Tables& dt, Params& grads) const {
-    input_table_backward(p, t, dt, 0, grid::kViewCells, grads, dt.visual);
+    if (!sees_patches()) input_table_backward(p, t, dt, 0, grid::kViewCells, grads, dt.visual);
     tables_backward(p, t, dt, grads);
   }
   static void set_zero(Tables& t);
+  /// Calls f(table of a, table of b...) for all tables whose gradients are to be summed but
+  /// `input`.
+  template <class F, class... T>
+  static void for_each_small_table(F&& f, T&... t) {
+    f(t.visual...);
+    f(t.patches.first...);
+    f(t.attention.probes...);
+    f(t.attention.scores...);
+    f(t.text...);
+    f(t.words...);
+  }
 
   /// Encodes all missions into the cache, from where text() takes their features [G, M].
   void encode_missions(const Params& p, const Tables& t, const Missions& missions, Cache& k) const;
@@ -134,9 +174,11 @@ struct Agent {
  private:
   S leak() const { return static_cast<S>(config.encoder_leak); }
   S sharpness() const { return static_cast<S>(1 / std::log(config.entropy_base)); }
-  const Matrix<S>& scale(const Cache& k) const {
-    return config.attention ? k.attention.scale : k.scale;
-  }
+
+  void forward_scores(const Tables& t, const Frames<S>& x, const Missions& missions,
+                      Cache& k) const;
+  void backward_scores(const Tables& t, const Frames<S>& x, const Missions& missions, Cache& k,
+                       Tables& dt) const;
 
   /// Sizes the cache for these frames; does nothing from the second call on.
   void fit(nn::SequenceShape shape, Index longest, Cache& k) const;
@@ -154,7 +196,11 @@ template <std::floating_point S>
 typename Agent<S>::Params Agent<S>::make_params() const {
   const Config& c = config;
   Params p;
-  VisualEncoder<S>::resize(p.visual, c.channels);
+  if (sees_patches()) {
+    PatchEncoder<S>::resize(p.patches, c.channels);
+  } else {
+    VisualEncoder<S>::resize(p.visual, c.channels);
+  }
   p.words.resize(c.word_size, babyai::kVocabularySize);
   if (c.attention) Attention::resize(p.attention, c.key_size, c.word_size, c.channels);
   Memory::resize(p.memory, grid::kViewCells * c.channels, c.memory_size);
@@ -174,9 +220,13 @@ template <std::floating_point S>
 typename Agent<S>::Tables Agent<S>::make_tables() const {
   const Config& c = config;
   Tables t;
-  t.visual.setZero(c.channels, alphabet.size());
-  if (c.attention) t.attention.resize(c.key_size, babyai::kVocabularySize, alphabet.size());
-  t.input.setZero(4 * c.memory_size, grid::kViewCells * alphabet.size());
+  const Index codes = sees_patches() ? 0 : alphabet.size();
+  t.visual.setZero(c.channels, codes);
+  if (sees_patches()) t.patches.resize(c.channels, alphabet.size());
+  if (c.attention) {
+    t.attention.resize(c.key_size, c.channels, babyai::kVocabularySize, codes);
+  }
+  t.input.setZero(4 * c.memory_size, grid::kViewCells * codes);
   t.text.setZero(3 * c.text_size, babyai::kVocabularySize);
   t.words.setZero(c.word_size, babyai::kVocabularySize);
   return t;
@@ -184,8 +234,13 @@ typename Agent<S>::Tables Agent<S>::make_tables() const {
 
 template <std::floating_point S>
 void Agent<S>::update_tables(const Params& p, Tables& t) const {
-  VisualEncoder<S>::forward(p.visual, alphabet, leak(), t.visual);
-  if (config.attention) Attention::make_tables(p.attention, p.words, t.visual, t.attention);
+  if (config.attention) Attention::make_probes(p.attention, p.words, t.attention);
+  if (sees_patches()) {
+    PatchEncoder<S>::make_tables(p.patches, alphabet, t.patches);
+  } else {
+    VisualEncoder<S>::forward(p.visual, alphabet, leak(), t.visual);
+    if (config.attention) Attention::make_scores(t.visual, t.attention);
+  }
   TextEncoder<S>::make_table(p.text, p.words, t.text);
 }
 
@@ -204,21 +259,25 @@ void Agent<S>::input_table_backward(const Params& p, const Tables& t, const Tabl
 template <std::floating_point S>
 void Agent<S>::tables_backward(const Params& p, const Tables& t, Tables& dt, Params& grads) const {
   TextEncoder<S>::table_backward(p.text, p.words, dt.text, grads.text, grads.words);
-  if (config.attention) {
-    Attention::tables_backward(p.attention, p.words, t.visual, t.attention, dt.attention,
-                               grads.attention, grads.words, dt.visual);
-  }
   grads.words += dt.words;
-  VisualEncoder<S>::backward(alphabet, leak(), t.visual, dt.visual, grads.visual);
+  if (sees_patches()) {
+    PatchEncoder<S>::tables_backward(alphabet, dt.patches, grads.patches);
+  } else {
+    if (config.attention) {
+      Attention::scores_backward(t.visual, t.attention, dt.attention, dt.visual);
+    }
+    VisualEncoder<S>::backward(alphabet, leak(), t.visual, dt.visual, grads.visual);
+  }
+  if (config.attention) {
+    Attention::probes_backward(p.attention, p.words, t.attention, dt.attention, grads.attention,
+                               grads.words);
+  }
 }
 
 template <std::floating_point S>
 void Agent<S>::set_zero(Tables& t) {
-  t.visual.setZero();
-  t.attention.scores.setZero();
+  for_each_small_table([](auto& table) { table.setZero(); }, t);
   t.input.setZero();
-  t.text.setZero();
-  t.words.setZero();
 }
 
 template <std::floating_point S>
@@ -232,9 +291,9 @@ void Agent<S>::forward(const Params& p, const Tables& t, const Frames<S>& x,
                        const Missions& missions, In<S> text, Cache& k) const {
   fit(x.shape, missions.longest, k);
   const Index hidden = config.memory_size;
+  if (sees_patches()) PatchEncoder<S>::forward(p.patches, t.patches, x.cells, leak(), k.patches);
   if (config.attention) {
-    Attention::forward_words(t.attention, x.cells, missions, x.mission_of, sharpness(),
-                             k.attention);
+    forward_scores(t, x, missions, k);
     if (config.task_attention) {
       weigh_words(p, missions, x, k);
       TaskAttention<S>::forward(p.task, k.task);
@@ -244,7 +303,12 @@ void Agent<S>::forward(const Params& p, const Tables& t, const Frames<S>& x,
     Attention::forward_gaze(missions, x.mission_of, k.alpha, static_cast<S>(config.gaze_exponent),
                             k.attention);
   }
-  FilteredInput<S>::forward(t.input, x.cells, scale(k), k.memory.gates);
+  if (sees_patches()) {
+    FilteredMap<S>::forward(k.patches.output, scale(k), k.filtered);
+    k.memory.gates.noalias() = p.memory.input_weight * k.filtered;
+  } else {
+    FilteredInput<S>::forward(t.input, x.cells, scale(k), k.memory.gates);
+  }
   if (config.completion_input) k.memory.gates.noalias() += p.completion * x.completion;
   Memory::forward(p.memory, x.shape, x.keep, x.start, k.memory);
   k.features.topRows(hidden) = k.memory.h;
@@ -273,16 +337,63 @@ void Agent<S>::backward(const Params& p, const Tables& t, const Frames<S>& x,
   if (config.completion_input) {
     grads.completion.noalias() += k.memory.dgates * x.completion.transpose();
   }
-  FilteredInput<S>::backward(t.input, x.cells, scale(k), k.memory.dgates, dt.input, k.dscale);
-  if (!config.attention) return;
-  Attention::backward_gaze(missions, x.mission_of, k.alpha, static_cast<S>(config.gaze_exponent),
-                           k.dscale, k.attention, k.dalpha);
-  if (config.task_attention) {
-    TaskAttention<S>::backward(p.task, k.dalpha, k.task, grads.task);
-    weigh_words_backward(p, missions, x, k, dt);
+  if (sees_patches()) {
+    grads.memory.input_weight.noalias() += k.memory.dgates * k.filtered.transpose();
+    k.dfiltered.noalias() = p.memory.input_weight.transpose() * k.memory.dgates;
+    FilteredMap<S>::backward(k.patches.output, scale(k), k.dfiltered, k.patches.doutput, k.dscale);
+  } else {
+    FilteredInput<S>::backward(t.input, x.cells, scale(k), k.memory.dgates, dt.input, k.dscale);
   }
-  Attention::backward_words(missions, x.mission_of, k.alpha, sharpness(), k.attention,
-                            dt.attention.scores);
+  if (config.attention) {
+    Attention::backward_gaze(missions, x.mission_of, k.alpha, static_cast<S>(config.gaze_exponent),
+                             k.dscale, k.attention, k.dalpha);
+    if (config.task_attention) {
+      TaskAttention<S>::backward(p.task, k.dalpha, k.task, grads.task);
+      weigh_words_backward(p, missions, x, k, dt);
+    }
+    backward_scores(t, x, missions, k, dt);
+  }
+  if (sees_patches()) {
+    PatchEncoder<S>::backward(t.patches, x.cells, leak(), k.patches, grads.patches, dt.patches);
+  }
+}
+
+/// Scores are columns of a table with 1x1; with 3x3 each frame's map is compared with the probes.
+template <std::floating_point S>
+void Agent<S>::forward_scores(const Tables& t, const Frames<S>& x, const Missions& missions,
+                              Cache& k) const {
+  const auto words = [&](auto&& score_of) {
+    Attention::forward_words(score_of, missions, x.mission_of, sharpness(), k.attention);
+  };
+  if (sees_patches()) {
+    words([&](Index n, Index, Index word) -> const Vector<S>& {
+      k.score.noalias() = map_frame(k.patches.output, n).transpose() * t.attention.probes.col(word);
+      return k.score;
+    });
+  } else {
+    Attention::count_codes(x.cells, k.attention);
+    words([&](Index, Index, Index word) { return t.attention.scores.col(word); });
+  }
+}
+
+template <std::floating_point S>
+void Agent<S>::backward_scores(const Tables& t, const Frames<S>& x, const Missions& missions,
+                               Cache& k, Tables& dt) const {
+  const auto words = [&](auto&& take) {
+    Attention::backward_words(missions, x.mission_of, k.alpha, sharpness(), k.attention, take);
+  };
+  if (sees_patches()) {
+    words([&](Index n, Index, Index word, const auto& dscore) {
+      k.score = dscore;
+      map_frame(k.patches.doutput, n).noalias() +=
+          t.attention.probes.col(word) * k.score.transpose();
+      dt.attention.probes.col(word).noalias() += map_frame(k.patches.output, n) * k.score;
+    });
+  } else {
+    words([&](Index, Index, Index word, const auto& dscore) {
+      dt.attention.scores.col(word) += dscore;
+    });
+  }
 }
 
 template <std::floating_point S>
@@ -294,9 +405,21 @@ void Agent<S>::fit(nn::SequenceShape shape, Index longest, Cache& k) const {
           "agent: a mission has {} words, the Task Attention Module takes {}; raise "
           "model.task_words",
           longest, config.task_words);
-  const Index frames = shape.columns(), codes = alphabet.size();
+  const Index frames = shape.columns();
   k.shape = shape;
-  if (config.attention) k.attention.resize(codes, frames, words);
+  if (config.attention) k.attention.resize(kinds(), frames, words);
+  if (sees_patches()) {
+    k.patches.resize(config.channels, frames);
+    k.score.setZero(kinds());
+    for (auto* m : {&k.filtered, &k.dfiltered}) {
+      m->resize(grid::kViewCells * config.channels, frames);
+    }
+    // Each cell of the view is one of its kind.
+    k.attention.counts.setZero(kinds(), frames);
+    for (Index cell = 0; cell < grid::kViewCells; ++cell) {
+      k.attention.counts.row(map_slot(cell)).setOnes();
+    }
+  }
   if (config.task_attention) {
     k.task.resize(config.word_size + config.clauses, config.task_size, config.task_words, frames);
   }
@@ -305,8 +428,8 @@ void Agent<S>::fit(nn::SequenceShape shape, Index longest, Cache& k) const {
   k.critic.resize(config.head_size, 1, frames);
   k.alpha.setOnes(words, frames);
   k.dalpha.setZero(config.task_attention ? config.task_words : words, frames);
-  k.scale.setOnes(codes, frames);
-  k.dscale.setZero(codes, frames);
+  k.scale.setOnes(kinds(), frames);
+  k.dscale.setZero(kinds(), frames);
   for (auto* m : {&k.features, &k.dfeatures}) {
     m->setZero(config.memory_size + config.text_size, frames);
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wordgaze/core/require.hpp"
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/grid/cell.hpp"
 #include "wordgaze/grid/observation.hpp"
 
@@ -89,5 +90,8 @@ class CellAlphabet {
   std::vector<Code> codes_;
   std::array<std::int8_t, kTypes * kColors * kStates> index_{};
 };
+
+/// Indices of the codes in view, one column of 49 cells a frame.
+using CellMatrix = Eigen::Matrix<std::uint8_t, grid::kViewCells, Eigen::Dynamic>;
 
 }  // namespace wordgaze::model

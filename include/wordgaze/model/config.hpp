@@ -1,21 +1,32 @@
 #pragma once
+#include <array>
+#include <string_view>
+
 #include "wordgaze/core/require.hpp"
 #include "wordgaze/core/setting.hpp"
 
 namespace wordgaze::model {
+
+/// What a cell's visual encoding looks at.
+enum class Encoder {
+  cell,   ///< the cell alone: a 1x1 convolution
+  patch,  ///< the 5x5 cells around it: two 3x3 convolutions
+};
+constexpr std::array<std::string_view, 2> names(Encoder) { return {"1x1", "3x3"}; }
 
 /// Sizes and readings of the network, named as in the paper; docs/reading.md gives the reasons.
 struct Config {
   bool attention = true;          ///< false: the baseline, F = O~
   bool task_attention = false;    ///< the Task Attention Module
   bool completion_input = false;  ///< c_t goes to the memory, beside the filtered view
-  int channels = 16;              ///< C: feature maps of the visual encoding O~
-  int word_size = 16;             ///< E: word embedding g~
-  int key_size = 16;              ///< d_k
-  int memory_size = 64;           ///< LSTM
-  int text_size = 32;             ///< GRU over the mission
-  int head_size = 64;             ///< hidden layer of actor and of critic
-  int task_size = 64;             ///< hidden layer of the Task Attention Module
+  Encoder encoder = Encoder::cell;
+  int channels = 16;          ///< C: feature maps of the visual encoding O~
+  int word_size = 16;         ///< E: word embedding g~
+  int key_size = 16;          ///< d_k
+  int memory_size = 64;       ///< LSTM
+  int text_size = 32;         ///< GRU over the mission
+  int head_size = 64;         ///< hidden layer of actor and of critic
+  int task_size = 64;         ///< hidden layer of the Task Attention Module
   int task_words = 32;        ///< outputs of the Task Attention Module: longest mission it takes
   int clauses = 4;            ///< length of the completion vector c_t
   double entropy_base = 49;   ///< base of the logarithm in the row entropies H (eq. 2)
@@ -31,6 +42,8 @@ struct Config {
         Setting{"task_attention", &C::task_attention, "the Task Attention Module (mask alpha)"},
         Setting{"completion_input", &C::completion_input,
                 "the memory reads c_t too; an ablation of the Task Attention Module"},
+        Setting{"encoder", &C::encoder,
+                "convolution of the visual encoding: of each cell alone, or two of 3x3 cells"},
         Setting{"channels", &C::channels, "C, feature maps of the visual encoding", 1, 1024},
         Setting{"word_size", &C::word_size, "E, size of a word embedding", 1, 1024},
         Setting{"key_size", &C::key_size, "d_k, size of queries and keys", 1, 1024},

@@ -1,5 +1,5 @@
 #pragma once
-#include "wordgaze/model/text_visual_attention.hpp"
+#include "wordgaze/model/cell_alphabet.hpp"
 
 namespace wordgaze::model {
 

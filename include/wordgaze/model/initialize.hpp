@@ -10,9 +10,9 @@ namespace wordgaze::model {
 
 /// Entries uniform in [-limit, limit].
 template <class M>
-void fill_uniform(M& leaf, double limit, core::Rng& rng) {
+void fill_uniform(M&& leaf, double limit, core::Rng& rng) {
   for (Index i = 0; i < leaf.size(); ++i) {
-    leaf.data()[i] = static_cast<typename M::Scalar>(limit * (2 * rng.uniform() - 1));
+    leaf.data()[i] = static_cast<typename std::decay_t<M>::Scalar>(limit * (2 * rng.uniform() - 1));
   }
 }
 
@@ -32,17 +32,37 @@ void fill_normal(M& leaf, core::Rng& rng) {
   }
 }
 
+/// The 3x3 encoder starts near the 1x1 one: a cell says more than its neighbors, and the second
+/// convolution begins as the identity with small random weights around it.
+template <std::floating_point S>
+void initialize_patches(const Config& config, typename PatchEncoder<S>::Params& p, core::Rng& rng) {
+  fill_uniform(p.first.weight, 0.1, rng);
+  auto center = p.first.weight.middleCols(kTaps / 2 * kCellFeatures, kCellFeatures);
+  fill_uniform(center, 0.5, rng);
+  p.first.bias.setConstant(static_cast<S>(config.encoder_bias));
+  fill_scaled(p.second.weight, 0.3, rng);
+  p.second.weight.middleCols(kTaps / 2 * config.channels, config.channels).diagonal().array() +=
+      S(1);
+}
+
 /// Every word starts with a score of `config.object_prior` on objects over all other cells: channel
 /// 0 of the encoding is 1 on key, ball and box and 0 elsewhere, and entry 0 of queries and keys
 /// carries the product. All of it stays learnable.
 template <std::floating_point S>
 void set_object_prior(const Config& config, typename Agent<S>::Params& p) {
-  const auto is_object = [](int type) { return type >= 5 && type <= 7; };
-  p.visual.weight.row(0).setZero();
-  for (int type = 0; type < kTypes; ++type) {
-    if (is_object(type)) p.visual.weight(0, type) = 1;
+  constexpr Index kFirstObject = 5, kObjects = 3;  // key, ball, box
+  if (config.encoder == Encoder::patch) {
+    auto& [first, second] = p.patches;
+    first.weight.row(0).setZero();
+    first.weight.row(0).segment(kTaps / 2 * kCellFeatures + kFirstObject, kObjects).setOnes();
+    first.bias(0) = 0;
+    second.weight.row(0).setZero();
+    second.weight(0, kTaps / 2 * config.channels) = 1;
+  } else {
+    p.visual.weight.row(0).setZero();
+    p.visual.weight.row(0).segment(kFirstObject, kObjects).setOnes();
+    p.visual.bias(0) = 0;
   }
-  p.visual.bias(0) = 0;
   p.words.row(0).setOnes();
   const auto entry = static_cast<S>(
       std::sqrt(config.object_prior * std::sqrt(static_cast<double>(config.key_size))));
@@ -56,8 +76,12 @@ template <std::floating_point S>
 typename Agent<S>::Params initialize(const Agent<S>& agent, core::Rng& rng) {
   const Config& config = agent.config;
   auto p = agent.make_params();
-  fill_uniform(p.visual.weight, 0.5, rng);
-  p.visual.bias.setConstant(static_cast<S>(config.encoder_bias));
+  if (agent.sees_patches()) {
+    initialize_patches<S>(config, p.patches, rng);
+  } else {
+    fill_uniform(p.visual.weight, 0.5, rng);
+    p.visual.bias.setConstant(static_cast<S>(config.encoder_bias));
+  }
   fill_normal(p.words, rng);
   if (config.attention) {
     fill_scaled(p.attention.query, 1, rng);

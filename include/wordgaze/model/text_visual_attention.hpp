@@ -7,24 +7,23 @@
 
 namespace wordgaze::model {
 
-/// Indices of the codes in view, one column of 49 cells a frame.
-using CellMatrix = Eigen::Matrix<std::uint8_t, grid::kViewCells, Eigen::Dynamic>;
-
 /// Text-visual attention; equations (A1)-(A7) in docs/math.md, (1) and (2) of the paper.
 ///
 ///     A_i = softmax over the 49 cells of (q_i . K / sqrt(d_k))     one map a word
 ///     H_i = entropy of A_i,   w = softmax over the words of -H     a sharp map weighs more
 ///     M   = sum_i alpha_i w_i A_i,   s = (M / (max M + eps))^p     what scales O~ cell by cell
 ///
-/// A score depends on the word and on the code in the cell alone. So scores are a table [P, V], a
-/// map is P numbers (the probability of *one* cell with that code), and sums over cells are sums
-/// over codes weighted by their counts in the view. Exact, and 49 cells become a handful of codes.
+/// Cells of one kind share their numbers: a map is P numbers, each the probability of *one* cell of
+/// that kind, and sums over cells are sums over kinds weighted by their counts in the view. Where
+/// the encoding looks at one cell at a time, a kind is a code: scores are a table [P, V], and 49
+/// cells become a handful of codes. Where it sees neighbors, each slot of the view (view_map.hpp)
+/// is a kind of its own that occurs once. Exact either way.
 ///
-/// shapes   N frames, L words of the longest mission, P codes, V words of the vocabulary
+/// shapes   N frames, L words of the longest mission, P kinds, V words of the vocabulary
 template <std::floating_point S>
 struct TextVisualAttention {
-  /// One number a code, on the stack.
-  using Codes = Eigen::Array<S, Eigen::Dynamic, 1, 0, kMaxCodes, 1>;
+  /// One number a kind, on the stack.
+  using Kinds = Eigen::Array<S, Eigen::Dynamic, 1, 0, kMaxCodes, 1>;
   static constexpr S kEpsilon = S(1e-6);
 
   struct Params {
@@ -39,65 +38,83 @@ struct TextVisualAttention {
     p.key.resize(key_size, channels);
   }
 
-  /// What depends on the weights alone: rebuilt once a weight version.
+  /// What depends on the weights alone: rebuilt once a weight version. With q = W_q g~ a score
+  /// q . (W_k O~) / sqrt(d_k) is (W_k^T q / sqrt(d_k)) . O~, so keys need not be formed: a word has
+  /// a probe that is compared with the encodings themselves.
   struct Tables {
-    Matrix<S> queries, keys, scores;  // [d_k, V], [d_k, P], [P, V]
-    void resize(Index key_size, Index words, Index codes) {
+    Matrix<S> queries;  // [d_k, V]
+    Matrix<S> probes;   // [C, V]
+    Matrix<S> scores;   // [P, V]; only where O~ is a table over the alphabet
+    void resize(Index key_size, Index channels, Index words, Index codes) {
       queries.setZero(key_size, words);
-      keys.setZero(key_size, codes);
+      probes.setZero(channels, words);
       scores.setZero(codes, words);
     }
   };
-  static void make_tables(const Params& p, In<S> words, In<S> visual, Tables& t) {
+  static void make_probes(const Params& p, In<S> words, Tables& t) {
     t.queries.noalias() = p.query * words;
-    t.keys.noalias() = p.key * visual;
-    t.scores.noalias() = t.keys.transpose() * t.queries;
-    t.scores *= S(1) / std::sqrt(static_cast<S>(p.key.rows()));
+    t.probes.noalias() = p.key.transpose() * t.queries;
+    t.probes *= S(1) / std::sqrt(static_cast<S>(p.key.rows()));
   }
-  /// On entry dt.scores is the gradient of the scores; the rest of dt is overwritten. Accumulates
-  /// into grads, dwords and dvisual.
-  static void tables_backward(const Params& p, In<S> words, In<S> visual, const Tables& t,
-                              Tables& dt, Params& grads, Out<S> dwords, Out<S> dvisual) {
-    dt.scores *= S(1) / std::sqrt(static_cast<S>(p.key.rows()));
-    dt.queries.noalias() = t.keys * dt.scores;
-    dt.keys.noalias() = t.queries * dt.scores.transpose();
+  /// On entry dt.probes is the gradient of the probes; it and dt.queries are used up. Accumulates
+  /// into grads and dwords.
+  static void probes_backward(const Params& p, In<S> words, const Tables& t, Tables& dt,
+                              Params& grads, Out<S> dwords) {
+    dt.probes *= S(1) / std::sqrt(static_cast<S>(p.key.rows()));
+    dt.queries.noalias() = p.key * dt.probes;
+    grads.key.noalias() += t.queries * dt.probes.transpose();
     grads.query.noalias() += dt.queries * words.transpose();
-    grads.key.noalias() += dt.keys * visual.transpose();
     dwords.noalias() += p.query.transpose() * dt.queries;
-    dvisual.noalias() += p.key.transpose() * dt.keys;
+  }
+  /// Scores of an encoding [C, P] that is a table over the alphabet.
+  static void make_scores(In<S> visual, Tables& t) {
+    t.scores.noalias() = visual.transpose() * t.probes;
+  }
+  /// From dt.scores to dt.probes and dvisual, both accumulated.
+  static void scores_backward(In<S> visual, const Tables& t, Tables& dt, Out<S> dvisual) {
+    dt.probes.noalias() += visual * dt.scores;
+    dvisual.noalias() += t.probes * dt.scores.transpose();
   }
 
   struct Cache {
-    Matrix<S> counts;  ///< [P, N] cells of each code in view
-    Matrix<S> maps;    ///< [P, N*L] column n*L+i: A_i of one cell with that code; 0 if not in view
-    Matrix<S> log_maps;                           ///< [P, N*L] its logarithm
-    Matrix<S> entropy;                            ///< [L, N] H, in units of entropy_base
-    Matrix<S> weights;                            ///< [L, N] w; 0 behind the mission's end
-    Matrix<S> gaze;                               ///< [P, N] M of one cell with that code
-    Matrix<S> scale;                              ///< [P, N] s(M)
-    Eigen::Array<Index, Eigen::Dynamic, 1> peak;  ///< [N] the code where M is largest
+    Matrix<S> counts;    ///< [P, N] cells of each kind in view
+    Matrix<S> maps;      ///< [P, N*L] column n*L+i: A_i of one cell of that kind; 0 if not in view
+    Matrix<S> log_maps;  ///< [P, N*L] its logarithm
+    Matrix<S> entropy;   ///< [L, N] H, in units of entropy_base
+    Matrix<S> weights;   ///< [L, N] w; 0 behind the mission's end
+    Matrix<S> gaze;      ///< [P, N] M of one cell of that kind
+    Matrix<S> scale;     ///< [P, N] s(M)
+    Eigen::Array<Index, Eigen::Dynamic, 1> peak;  ///< [N] the kind where M is largest
     Matrix<S> dgaze, dweights;                    // [P, N], [L, N]: gradients on their way down
     Index words = 0;                              ///< L
 
-    void resize(Index codes, Index frames, Index longest) {
+    void resize(Index kinds, Index frames, Index longest) {
       words = longest;
-      for (auto* m : {&counts, &gaze, &scale, &dgaze}) m->resize(codes, frames);
-      for (auto* m : {&maps, &log_maps}) m->resize(codes, frames * longest);
+      for (auto* m : {&counts, &gaze, &scale, &dgaze}) m->resize(kinds, frames);
+      for (auto* m : {&maps, &log_maps}) m->resize(kinds, frames * longest);
       for (auto* m : {&entropy, &weights, &dweights}) m->resize(longest, frames);
       peak.resize(frames);
     }
     Index map(Index frame, Index word) const { return frame * words + word; }
   };
 
-  /// Maps, entropies and word weights. `sharpness` is 1 / ln(entropy_base).
-  static void forward_words(const Tables& t, const CellMatrix& cells, const Missions& missions,
-                            const std::vector<int>& mission_of, S sharpness, Cache& k) {
-    const Index codes = t.scores.rows();
+  /// Where kinds are codes: how many cells of each are in view.
+  static void count_codes(const CellMatrix& cells, Cache& k) {
+    k.counts.setZero();
     for (Index n = 0; n < cells.cols(); ++n) {
-      auto counts = k.counts.col(n).array();
-      counts.setZero();
-      for (Index c = 0; c < grid::kViewCells; ++c) counts(cells(c, n)) += S(1);
-      const Codes present = (counts > S(0)).template cast<S>();
+      for (Index c = 0; c < grid::kViewCells; ++c) k.counts(cells(c, n), n) += S(1);
+    }
+  }
+
+  /// Maps, entropies and word weights, from cache.counts and score_of(frame, place in the mission,
+  /// word) [P]. `sharpness` is 1 / ln(entropy_base).
+  template <class ScoreOf>
+  static void forward_words(ScoreOf&& score_of, const Missions& missions,
+                            const std::vector<int>& mission_of, S sharpness, Cache& k) {
+    const Index kinds = k.counts.rows();
+    for (Index n = 0; n < k.counts.cols(); ++n) {
+      const auto counts = k.counts.col(n).array();
+      const Kinds present = (counts > S(0)).template cast<S>();
 
       const auto& sentence = missions[mission_of[static_cast<std::size_t>(n)]];
       auto weights = k.weights.col(n);
@@ -105,10 +122,10 @@ struct TextVisualAttention {
       weights.setZero();
       entropy.setZero();
       for (Index i = 0; i < sentence.length; ++i) {
-        const auto score = t.scores.col(sentence.words[static_cast<std::size_t>(i)]).array();
+        const auto score = score_of(n, i, sentence.words[static_cast<std::size_t>(i)]).array();
         // The largest score in view, not of the table: else every exponential could underflow.
         S top = -std::numeric_limits<S>::infinity();
-        for (Index p = 0; p < codes; ++p) {
+        for (Index p = 0; p < kinds; ++p) {
           if (counts(p) > S(0)) top = std::max(top, score(p));
         }
         auto map = k.maps.col(k.map(n, i)).array();
@@ -143,7 +160,7 @@ struct TextVisualAttention {
     }
   }
 
-  /// From dscale [P, N] (summed over the cells of each code) to cache.dgaze, cache.dweights and
+  /// From dscale [P, N] (summed over the cells of each kind) to cache.dgaze, cache.dweights and
   /// dalpha [L or more, N], all overwritten.
   static void backward_gaze(const Missions& missions, const std::vector<int>& mission_of,
                             In<S> alpha, S exponent, In<S> dscale, Cache& k, Out<S> dalpha) {
@@ -153,7 +170,7 @@ struct TextVisualAttention {
       const auto gaze = k.gaze.col(n).array();
       const S inverse = S(1) / (gaze(k.peak(n)) + kEpsilon);
       auto dgaze = k.dgaze.col(n).array();
-      Codes slope(gaze.size());
+      Kinds slope(gaze.size());
       power(gaze * inverse, exponent - S(1), slope);
       dgaze = dscale.col(n).array() * slope * (exponent * inverse);
       dgaze(k.peak(n)) -= (dgaze * gaze).sum() * inverse;
@@ -167,9 +184,10 @@ struct TextVisualAttention {
   }
 
   /// From cache.dgaze and cache.dweights (the Task Attention Module may have added to it) to the
-  /// table of scores (+=).
+  /// gradients of the scores: calls take(frame, place in the mission, word, dscore [P]).
+  template <class Take>
   static void backward_words(const Missions& missions, const std::vector<int>& mission_of,
-                             In<S> alpha, S sharpness, Cache& k, Out<S> dscores) {
+                             In<S> alpha, S sharpness, const Cache& k, Take&& take) {
     for (Index n = 0; n < k.gaze.cols(); ++n) {
       const auto& sentence = missions[mission_of[static_cast<std::size_t>(n)]];
       const auto counts = k.counts.col(n).array();
@@ -185,8 +203,8 @@ struct TextVisualAttention {
         // Entropy in natural units: H = -sum counts A log A; dH/dscore = -counts A (log A + H).
         const S dentropy = -w(i) * (dw(i) - mean) * sharpness;
         const S entropy = k.entropy(i, n) / sharpness;
-        dscores.col(sentence.words[static_cast<std::size_t>(i)]).array() +=
-            map * (mix * dgaze - counts * (pull + dentropy * (log_map + entropy)));
+        take(n, i, sentence.words[static_cast<std::size_t>(i)],
+             (map * (mix * dgaze - counts * (pull + dentropy * (log_map + entropy)))).matrix());
       }
     }
   }

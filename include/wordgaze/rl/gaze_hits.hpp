@@ -28,9 +28,12 @@ struct GazeHits {
       if (!turn[i] || !object.type || !object.color) continue;
       const int code = agent.alphabet.find(
           {static_cast<std::uint8_t>(*object.type), static_cast<std::uint8_t>(*object.color), 0});
-      if (code < 0 || attention.counts(code, lane) == 0) continue;
-      in_view = true;
-      brightest = brightest || attention.peak(lane) == code;
+      const auto& cells = actor.frames().cells;
+      for (Index cell = 0; cell < grid::kViewCells; ++cell) {
+        if (cells(cell, lane) != code) continue;
+        in_view = true;
+        brightest = brightest || attention.peak(lane) == agent.kind(cells, cell, lane);
+      }
     }
     seen += in_view;
     hit += brightest;

@@ -61,6 +61,7 @@ class Learner {
   void gather(const Minibatch& batch, std::span<const int> sequences, Worker& worker) const;
   void differentiate(const Minibatch& batch, std::span<const int> sequences, Worker& worker) const;
   void sum_gradients();
+  void sum_input_tables();
 
   const Agent* agent_;
   const PpoConfig* ppo_;
