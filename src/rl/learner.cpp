@@ -91,15 +91,18 @@ Learner::Report Learner::learn(const Rollout& rollout,
         report.loss += worker.loss;
         report.mask_loss += worker.mask_loss;
       }
-      auto& grads = workers_.front().grads;
-      const double norm = optim::clip_norm(grads, ppo_->gradient_norm);
+      const double norm = gradient_norm();
       if (!std::isfinite(norm)) {
         ++report.skipped;
         continue;
       }
       ++applied;
       report.gradient_norm += norm;
-      adam_.step(params_, grads, rate);
+      adam_.begin_step();
+      const double scale = optim::clip_scale(norm, ppo_->gradient_norm);
+      team_->run([&](int w) {
+        adam_.update(params_, workers_.front().grads, rate, scale, {w, team_->size()});
+      });
       update_tables();
     }
   }
@@ -203,6 +206,16 @@ void Learner::sum_gradients() {
                                 worker.dtables);
   }
   agent_->tables_backward(params_, tables_, first.dtables, first.grads);
+}
+
+double Learner::gradient_norm() {
+  team_->run([&](int w) {
+    Worker& worker = workers_[static_cast<std::size_t>(w)];
+    worker.squared_norm = nn::squared_norm(workers_.front().grads, {w, team_->size()});
+  });
+  double total = 0;
+  for (const Worker& worker : workers_) total += worker.squared_norm;
+  return std::sqrt(total);
 }
 
 /// The input tables are large, so workers share their cells out.

@@ -43,21 +43,41 @@ TEST(Adam, EachLeafHasItsOwnRate) {
   EXPECT_NE(params.bias, before.bias);
 }
 
-TEST(ClipNorm, ScalesTheWholeGradientDownAndReturnsTheNormBefore) {
-  Params grads = random_params();
-  const Params before = grads;
-  const double norm = std::sqrt(nn::squared_norm(grads));
-  EXPECT_NEAR(clip_norm(grads, norm / 2), norm, 1e-12);
-  EXPECT_TRUE(grads.weight.isApprox(before.weight / 2));
-  EXPECT_TRUE(grads.bias.isApprox(before.bias / 2));
-  EXPECT_NEAR(clip_norm(grads, norm), norm / 2, 1e-12);
-  EXPECT_TRUE(grads.bias.isApprox(before.bias / 2)) << "a small gradient is left alone";
+TEST(Adam, PartsMakeTheSameStepAsTheWhole) {
+  Params whole = random_params(), parts = whole;
+  const Params grads = random_params();
+  const auto rate = [](const nn::Path&) { return 0.01; };
+  Adam<Params> a(whole), b(parts);
+  a.step(whole, grads, rate, 0.5);
+  b.begin_step();
+  for (Index k = 0; k < 4; ++k) b.update(parts, grads, rate, 0.5, {k, 4});
+  EXPECT_EQ(whole.weight, parts.weight);
+  EXPECT_EQ(whole.bias, parts.bias);
 }
 
-TEST(ClipNorm, ReportsAGradientThatIsNotFinite) {
-  Params grads = random_params();
-  grads.bias(0) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(std::isfinite(clip_norm(grads, 1)));
+TEST(Adam, ScalesTheGradient) {
+  Params plain = random_params(), scaled = plain, grads = random_params();
+  const auto rate = [](const nn::Path&) { return 0.01; };
+  Adam<Params> a(plain), b(scaled);
+  b.step(scaled, grads, rate, 0.25);
+  nn::for_each_parameter([](const nn::Path&, auto& leaf) { leaf *= 0.25; }, grads);
+  a.step(plain, grads, rate);
+  EXPECT_TRUE(plain.weight.isApprox(scaled.weight, 1e-15));
+}
+
+TEST(SquaredNorm, OfThePartsAddsUp) {
+  const Params p = random_params();
+  const double plain = p.weight.squaredNorm() + p.bias.squaredNorm();
+  EXPECT_NEAR(nn::squared_norm(p), plain, 1e-12);
+  double sum = 0;
+  for (Index k = 0; k < 4; ++k) sum += nn::squared_norm(p, {k, 4});
+  EXPECT_NEAR(sum, plain, 1e-12);
+}
+
+TEST(ClipScale, BringsANormDownToTheLimit) {
+  EXPECT_DOUBLE_EQ(clip_scale(4, 0.5), 0.125);
+  EXPECT_DOUBLE_EQ(clip_scale(0.5, 0.5), 1);
+  EXPECT_DOUBLE_EQ(clip_scale(0, 0.5), 1) << "a small gradient is left alone";
 }
 
 TEST(Schedule, FallsLinearlyThenStays) {

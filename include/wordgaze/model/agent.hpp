@@ -104,8 +104,12 @@ struct Agent {
 
   /// Whether the encoding sees neighbors (3x3), so that it is no table.
   bool sees_patches() const { return config.encoder == Encoder::patch; }
-  /// P: numbers of a map; see TextVisualAttention.
-  Index kinds() const { return sees_patches() ? kMapSlots : alphabet.size(); }
+  /// P: numbers of a map; see TextVisualAttention. Codes are filled up to whole packets with kinds
+  /// that are never in view: columns of odd length cost twice the time.
+  Index kinds() const {
+    constexpr Index kPacket = 16;
+    return sees_patches() ? kMapSlots : (alphabet.size() + kPacket - 1) / kPacket * kPacket;
+  }
   /// Which of them belongs to a cell of frame n.
   Index kind(const CellMatrix& cells, Index cell, Index n) const {
     return sees_patches() ? map_slot(cell) : cells(cell, n);
@@ -224,7 +228,8 @@ typename Agent<S>::Tables Agent<S>::make_tables() const {
   t.visual.setZero(c.channels, codes);
   if (sees_patches()) t.patches.resize(c.channels, alphabet.size());
   if (c.attention) {
-    t.attention.resize(c.key_size, c.channels, babyai::kVocabularySize, codes);
+    t.attention.resize(c.key_size, c.channels, babyai::kVocabularySize,
+                       sees_patches() ? 0 : kinds());
   }
   t.input.setZero(4 * c.memory_size, grid::kViewCells * codes);
   t.text.setZero(3 * c.text_size, babyai::kVocabularySize);

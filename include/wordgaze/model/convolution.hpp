@@ -57,9 +57,9 @@ struct Convolution {
   /// Column q holds the three neighbors of slot q that taps 3 row to 3 row + 2 see.
   static auto shifted(const Matrix<S>& x, Index row) {
     const Index first = kMapMargin + tap_distance(3 * row);
-    return Eigen::Map<const Matrix<S>, 0, Eigen::OuterStride<>>(
-        x.col(first).data(), 3 * x.rows(), x.cols() - 2 * kMapMargin,
-        Eigen::OuterStride<>(x.rows()));
+    return Eigen::Map<const Matrix<S>, 0, Eigen::OuterStride<>>(x.col(first).data(), 3 * x.rows(),
+                                                                x.cols() - 2 * kMapMargin,
+                                                                Eigen::OuterStride<>(x.rows()));
   }
 };
 

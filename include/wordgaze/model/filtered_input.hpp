@@ -10,7 +10,8 @@ namespace wordgaze::model {
 /// in brackets is a table of 49 P columns, so a frame costs 49 scaled column additions instead of
 /// 49 C of them, and F is never formed. Exact for any encoder that looks at one cell at a time.
 ///
-/// shapes   visual [C, P]   input_weight [G, 49 C]   table [G, 49 P]: column cell * P + code
+/// shapes   visual [C, P]   scale [P or more, N]   input_weight [G, 49 C]   table [G, 49 P]: column
+/// cell * P + code
 template <std::floating_point S>
 struct FilteredInput {
   /// Cells [from, to) of the table, so that workers can share the work.
@@ -32,12 +33,15 @@ struct FilteredInput {
     }
   }
 
-  /// product [G, N] = W_x F. A view row of 7 cells is added in one pass over the column.
+  // Cells outside, frames inside: the few columns of a cell that frames ask for stay in the cache,
+  // the whole table (about a megabyte) does not.
+
+  /// product [G, N] = W_x F. Seven cells are added in one pass over the column.
   static void forward(In<S> table, const CellMatrix& cells, In<S> scale, Out<S> product) {
-    const Index codes = scale.rows();
-    for (Index n = 0; n < cells.cols(); ++n) {
-      auto y = product.col(n);
-      for (Index c = 0; c < grid::kViewCells; c += grid::kViewSize) {
+    const Index codes = table.cols() / grid::kViewCells;
+    for (Index c = 0; c < grid::kViewCells; c += grid::kViewSize) {
+      for (Index n = 0; n < cells.cols(); ++n) {
+        auto y = product.col(n);
         const auto term = [&](Index k) {
           const Index code = cells(c + k, n);
           return scale(code, n) * table.col((c + k) * codes + code);
@@ -56,11 +60,11 @@ struct FilteredInput {
   /// Accumulates into dtable; overwrites dscale [P, N], summed over the cells of each code.
   static void backward(In<S> table, const CellMatrix& cells, In<S> scale, In<S> dproduct,
                        Out<S> dtable, Out<S> dscale) {
-    const Index codes = scale.rows();
+    const Index codes = table.cols() / grid::kViewCells;
     dscale.setZero();
-    for (Index n = 0; n < cells.cols(); ++n) {
-      const auto dy = dproduct.col(n);
-      for (Index c = 0; c < grid::kViewCells; ++c) {
+    for (Index c = 0; c < grid::kViewCells; ++c) {
+      for (Index n = 0; n < cells.cols(); ++n) {
+        const auto dy = dproduct.col(n);
         const Index code = cells(c, n), column = c * codes + code;
         dscale(code, n) += table.col(column).dot(dy);
         dtable.col(column) += scale(code, n) * dy;

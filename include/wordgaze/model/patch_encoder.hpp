@@ -16,7 +16,7 @@ namespace wordgaze::model {
 template <std::floating_point S>
 struct PatchEncoder {
   struct Params {
-    typename VisualEncoder<S>::Params first;   ///< weight [C, 9 * 20]: a block of 20 columns a tap
+    typename VisualEncoder<S>::Params first;  ///< weight [C, 9 * 20]: a block of 20 columns a tap
     typename Convolution<S>::Params second;
     static constexpr auto fields() {
       return std::tuple{nn::Field{"first", &Params::first}, nn::Field{"second", &Params::second}};

@@ -66,14 +66,15 @@ struct TextVisualAttention {
     grads.query.noalias() += dt.queries * words.transpose();
     dwords.noalias() += p.query.transpose() * dt.queries;
   }
-  /// Scores of an encoding [C, P] that is a table over the alphabet.
+  /// Scores of an encoding [C, P or fewer] that is a table over the alphabet.
   static void make_scores(In<S> visual, Tables& t) {
-    t.scores.noalias() = visual.transpose() * t.probes;
+    t.scores.topRows(visual.cols()).noalias() = visual.transpose() * t.probes;
   }
   /// From dt.scores to dt.probes and dvisual, both accumulated.
   static void scores_backward(In<S> visual, const Tables& t, Tables& dt, Out<S> dvisual) {
-    dt.probes.noalias() += visual * dt.scores;
-    dvisual.noalias() += t.probes * dt.scores.transpose();
+    const auto dscores = dt.scores.topRows(visual.cols());
+    dt.probes.noalias() += visual * dscores;
+    dvisual.noalias() += t.probes * dscores.transpose();
   }
 
   struct Cache {

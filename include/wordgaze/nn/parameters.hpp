@@ -90,12 +90,27 @@ Index count(const P& p) {
   return total;
 }
 
+/// One of some equal parts of every leaf, so that workers can share what is done element by
+/// element.
+struct Part {
+  Index number = 0, of = 1;
+
+  /// This part of a leaf, as a column.
+  template <Leaf M>
+  auto operator()(M& leaf) const {
+    const Index from = leaf.size() * number / of, to = leaf.size() * (number + 1) / of;
+    return leaf.reshaped().segment(from, to - from);
+  }
+};
+
 /// Sum of squares over all leaves, accumulated in double.
 template <Tree P>
-double squared_norm(const P& p) {
+double squared_norm(const P& p, Part part = {}) {
   double total = 0;
   for_each_parameter(
-      [&](const Path&, const auto& leaf) { total += leaf.template cast<double>().squaredNorm(); },
+      [&](const Path&, const auto& leaf) {
+        total += part(leaf).template cast<double>().squaredNorm();
+      },
       p);
   return total;
 }

@@ -48,6 +48,7 @@ class Learner {
     Agent::Tables dtables;
     PpoLoss<float>::Sums loss;
     double mask_loss = 0;
+    double squared_norm = 0;  // of its part of the sum of all gradients
   };
   struct Minibatch {
     const Rollout* rollout;
@@ -62,6 +63,7 @@ class Learner {
   void differentiate(const Minibatch& batch, std::span<const int> sequences, Worker& worker) const;
   void sum_gradients();
   void sum_input_tables();
+  double gradient_norm();
 
   const Agent* agent_;
   const PpoConfig* ppo_;
