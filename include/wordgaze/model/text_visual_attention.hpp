@@ -1,5 +1,7 @@
 #pragma once
 #include <cmath>
+#include <stdexcept>
+#include <type_traits>
 
 #include "wordgaze/model/cell_alphabet.hpp"
 #include "wordgaze/model/missions.hpp"
@@ -22,8 +24,9 @@ namespace wordgaze::model {
 /// shapes   N frames, L words of the longest mission, P kinds, V words of the vocabulary
 template <std::floating_point S>
 struct TextVisualAttention {
-  /// One number a kind, on the stack.
-  using Kinds = Eigen::Array<S, Eigen::Dynamic, 1, 0, kMaxCodes, 1>;
+  /// One number a kind.
+  template <int P>
+  using Kinds = Eigen::Array<S, P, 1>;
   static constexpr S kEpsilon = S(1e-6);
 
   struct Params {
@@ -112,53 +115,53 @@ struct TextVisualAttention {
   template <class ScoreOf>
   static void forward_words(ScoreOf&& score_of, const Missions& missions,
                             const std::vector<int>& mission_of, S sharpness, Cache& k) {
-    const Index kinds = k.counts.rows();
-    for (Index n = 0; n < k.counts.cols(); ++n) {
-      const auto counts = k.counts.col(n).array();
-      const Kinds present = (counts > S(0)).template cast<S>();
-
-      const auto& sentence = missions[mission_of[static_cast<std::size_t>(n)]];
-      auto weights = k.weights.col(n);
-      auto entropy = k.entropy.col(n);
-      weights.setZero();
-      entropy.setZero();
-      for (Index i = 0; i < sentence.length; ++i) {
-        const auto score = score_of(n, i, sentence.words[static_cast<std::size_t>(i)]).array();
-        // The largest score in view, not of the table: else every exponential could underflow.
-        S top = -std::numeric_limits<S>::infinity();
-        for (Index p = 0; p < kinds; ++p) {
-          if (counts(p) > S(0)) top = std::max(top, score(p));
+    with_size(k.counts.rows(), [&](auto size) {
+      using Numbers = Kinds<size()>;
+      for (Index n = 0; n < k.counts.cols(); ++n) {
+        const Numbers counts = k.counts.col(n).array();
+        const Numbers present = (counts > S(0)).template cast<S>();
+        const auto& sentence = missions[mission_of[static_cast<std::size_t>(n)]];
+        auto weights = k.weights.col(n);
+        auto entropy = k.entropy.col(n);
+        weights.setZero();
+        entropy.setZero();
+        for (Index i = 0; i < sentence.length; ++i) {
+          // The largest score in view, not of the table: else every exponential could underflow.
+          const Numbers score =
+              score_of(n, i, sentence.words[static_cast<std::size_t>(i)]).array() +
+              (present - S(1)) * kOutOfView;
+          Numbers log_map = score - score.maxCoeff();
+          Numbers map = log_map.exp() * present;
+          const S sum = (map * counts).sum();
+          map *= S(1) / sum;
+          log_map -= std::log(sum);
+          entropy(i) = -(counts * map * log_map).sum() * sharpness;
+          k.maps.col(k.map(n, i)) = map;
+          k.log_maps.col(k.map(n, i)) = log_map;
         }
-        auto map = k.maps.col(k.map(n, i)).array();
-        auto log_map = k.log_maps.col(k.map(n, i)).array();
-        log_map = (score - top).min(S(0));
-        map = log_map.exp() * present;
-        const S sum = (map * counts).sum();
-        const S log_sum = std::log(sum);
-        map *= S(1) / sum;
-        log_map -= log_sum;
-        entropy(i) = -(counts * map * log_map).sum() * sharpness;
+        auto w = weights.head(sentence.length).array();
+        const auto h = entropy.head(sentence.length).array();
+        w = (h.minCoeff() - h).exp();
+        w *= S(1) / w.sum();
       }
-      auto w = weights.head(sentence.length).array();
-      const auto h = entropy.head(sentence.length).array();
-      w = (h.minCoeff() - h).exp();
-      w *= S(1) / w.sum();
-    }
+    });
   }
 
   /// M and s(M), from the word weights times the mask alpha [L or more, N].
   static void forward_gaze(const Missions& missions, const std::vector<int>& mission_of,
                            In<S> alpha, S exponent, Cache& k) {
-    for (Index n = 0; n < k.gaze.cols(); ++n) {
-      const Index length = missions[mission_of[static_cast<std::size_t>(n)]].length;
-      auto gaze = k.gaze.col(n);
-      gaze.setZero();
-      for (Index i = 0; i < length; ++i) {
-        gaze += (alpha(i, n) * k.weights(i, n)) * k.maps.col(k.map(n, i));
+    with_size(k.gaze.rows(), [&](auto size) {
+      for (Index n = 0; n < k.gaze.cols(); ++n) {
+        const Index length = missions[mission_of[static_cast<std::size_t>(n)]].length;
+        Kinds<size()> gaze = Kinds<size()>::Zero();
+        for (Index i = 0; i < length; ++i) {
+          gaze += (alpha(i, n) * k.weights(i, n)) * column<size()>(k.maps, k.map(n, i));
+        }
+        const S most = gaze.maxCoeff(&k.peak(n)) + kEpsilon;
+        k.gaze.col(n) = gaze;
+        power(gaze * (S(1) / most), exponent, k.scale.col(n));
       }
-      const S most = gaze.maxCoeff(&k.peak(n)) + kEpsilon;
-      power(gaze.array() * (S(1) / most), exponent, k.scale.col(n));
-    }
+    });
   }
 
   /// From dscale [P, N] (summed over the cells of each kind) to cache.dgaze, cache.dweights and
@@ -167,21 +170,23 @@ struct TextVisualAttention {
                             In<S> alpha, S exponent, In<S> dscale, Cache& k, Out<S> dalpha) {
     dalpha.setZero();
     k.dweights.setZero();
-    for (Index n = 0; n < k.gaze.cols(); ++n) {
-      const auto gaze = k.gaze.col(n).array();
-      const S inverse = S(1) / (gaze(k.peak(n)) + kEpsilon);
-      auto dgaze = k.dgaze.col(n).array();
-      Kinds slope(gaze.size());
-      power(gaze * inverse, exponent - S(1), slope);
-      dgaze = dscale.col(n).array() * slope * (exponent * inverse);
-      dgaze(k.peak(n)) -= (dgaze * gaze).sum() * inverse;
-      const Index length = missions[mission_of[static_cast<std::size_t>(n)]].length;
-      for (Index i = 0; i < length; ++i) {
-        const S dmix = dgaze.matrix().dot(k.maps.col(k.map(n, i)));
-        dalpha(i, n) = k.weights(i, n) * dmix;
-        k.dweights(i, n) = alpha(i, n) * dmix;
+    with_size(k.gaze.rows(), [&](auto size) {
+      for (Index n = 0; n < k.gaze.cols(); ++n) {
+        const Kinds<size()> gaze = k.gaze.col(n).array();
+        const S inverse = S(1) / (gaze(k.peak(n)) + kEpsilon);
+        Kinds<size()> dgaze;
+        power(gaze * inverse, exponent - S(1), dgaze);
+        dgaze *= dscale.col(n).array() * (exponent * inverse);
+        dgaze(k.peak(n)) -= (dgaze * gaze).sum() * inverse;
+        k.dgaze.col(n) = dgaze;
+        const Index length = missions[mission_of[static_cast<std::size_t>(n)]].length;
+        for (Index i = 0; i < length; ++i) {
+          const S dmix = (dgaze * column<size()>(k.maps, k.map(n, i))).sum();
+          dalpha(i, n) = k.weights(i, n) * dmix;
+          k.dweights(i, n) = alpha(i, n) * dmix;
+        }
       }
-    }
+    });
   }
 
   /// From cache.dgaze and cache.dweights (the Task Attention Module may have added to it) to the
@@ -189,32 +194,58 @@ struct TextVisualAttention {
   template <class Take>
   static void backward_words(const Missions& missions, const std::vector<int>& mission_of,
                              In<S> alpha, S sharpness, const Cache& k, Take&& take) {
-    for (Index n = 0; n < k.gaze.cols(); ++n) {
-      const auto& sentence = missions[mission_of[static_cast<std::size_t>(n)]];
-      const auto counts = k.counts.col(n).array();
-      const auto dgaze = k.dgaze.col(n).array();
-      const auto w = k.weights.col(n).head(sentence.length);
-      const auto dw = k.dweights.col(n).head(sentence.length);
-      const S mean = w.dot(dw);
-      for (Index i = 0; i < sentence.length; ++i) {
-        const auto map = k.maps.col(k.map(n, i)).array();
-        const auto log_map = k.log_maps.col(k.map(n, i)).array();
-        const S mix = alpha(i, n) * w(i);
-        const S pull = mix * (map * dgaze).sum();  // the softmax's shared term
-        // Entropy in natural units: H = -sum counts A log A; dH/dscore = -counts A (log A + H).
-        const S dentropy = -w(i) * (dw(i) - mean) * sharpness;
-        const S entropy = k.entropy(i, n) / sharpness;
-        take(n, i, sentence.words[static_cast<std::size_t>(i)],
-             (map * (mix * dgaze - counts * (pull + dentropy * (log_map + entropy)))).matrix());
+    with_size(k.gaze.rows(), [&](auto size) {
+      using Numbers = Kinds<size()>;
+      for (Index n = 0; n < k.gaze.cols(); ++n) {
+        const auto& sentence = missions[mission_of[static_cast<std::size_t>(n)]];
+        const Numbers counts = k.counts.col(n).array();
+        const Numbers dgaze = k.dgaze.col(n).array();
+        const auto w = k.weights.col(n).head(sentence.length);
+        const auto dw = k.dweights.col(n).head(sentence.length);
+        const S mean = w.dot(dw);
+        for (Index i = 0; i < sentence.length; ++i) {
+          const Numbers map = column<size()>(k.maps, k.map(n, i));
+          const Numbers log_map = column<size()>(k.log_maps, k.map(n, i));
+          const S mix = alpha(i, n) * w(i);
+          const S pull = mix * (map * dgaze).sum();  // the softmax's shared term
+          // Entropy in natural units: H = -sum counts A log A; dH/dscore = -counts A (log A + H).
+          const S dentropy = -w(i) * (dw(i) - mean) * sharpness;
+          const S entropy = k.entropy(i, n) / sharpness;
+          const Numbers dscore =
+              map * (mix * dgaze - counts * (pull + dentropy * (log_map + entropy)));
+          take(n, i, sentence.words[static_cast<std::size_t>(i)], dscore.matrix());
+        }
       }
-    }
+    });
   }
 
  private:
+  /// Added to the scores of kinds that are not in view.
+  static constexpr S kOutOfView = S(1e9);
+
+  /// Calls f with P as a constant: whole loops over kinds then become a few packets in registers.
+  template <class F>
+  static void with_size(Index kinds, F&& f) {
+    switch (kinds) {
+      case 32:
+        return f(std::integral_constant<int, 32>());
+      case 48:
+        return f(std::integral_constant<int, 48>());
+      case 64:
+        return f(std::integral_constant<int, 64>());
+      default:
+        throw std::logic_error("TextVisualAttention: no code for this number of kinds");
+    }
+  }
+  template <int P>
+  static auto column(const Matrix<S>& m, Index index) {
+    return Eigen::Map<const Kinds<P>>(m.col(index).data());
+  }
+
   template <class X, class Y>
   static void power(const X& base, S exponent, Y&& result) {
     if (exponent == S(0)) {
-      result.setOnes();
+      result.fill(S(1));
     } else if (exponent == S(1)) {
       result.array() = base;
     } else if (exponent == S(2)) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <string>
@@ -98,18 +99,24 @@ struct Part {
   /// This part of a leaf, as a column.
   template <Leaf M>
   auto operator()(M& leaf) const {
+    using Column = Vector<typename M::Scalar>;
+    using View = std::conditional_t<std::is_const_v<M>, const Column, Column>;
     const Index from = leaf.size() * number / of, to = leaf.size() * (number + 1) / of;
-    return leaf.reshaped().segment(from, to - from);
+    return Eigen::Map<View>(leaf.data() + from, to - from);  // vectorizes, as reshaped() does not
   }
 };
 
-/// Sum of squares over all leaves, accumulated in double.
+/// Sum of squares over all leaves: of short runs in the leaf's own precision, of those in double.
 template <Tree P>
 double squared_norm(const P& p, Part part = {}) {
   double total = 0;
   for_each_parameter(
       [&](const Path&, const auto& leaf) {
-        total += part(leaf).template cast<double>().squaredNorm();
+        constexpr Index kRun = 1024;
+        const auto column = part(leaf);
+        for (Index i = 0; i < column.size(); i += kRun) {
+          total += column.segment(i, std::min(kRun, column.size() - i)).squaredNorm();
+        }
       },
       p);
   return total;
