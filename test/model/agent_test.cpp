@@ -80,7 +80,8 @@ struct PlainTwin {
       w.array() *= alpha.head(s.length).array();
     }
     const Vector<double> gaze = maps.transpose() * w;
-    return (gaze.array() / (gaze.maxCoeff() + 1e-6)).pow(c.gaze_exponent);
+    return c.gaze_floor +
+           (1 - c.gaze_floor) * (gaze.array() / (gaze.maxCoeff() + 1e-6)).pow(c.gaze_exponent);
   }
 
   /// Logits over value, [8, N].

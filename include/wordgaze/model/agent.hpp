@@ -242,7 +242,7 @@ void Agent<S>::forward(const Params& p, const Tables& t, const Frames<S>& x,
       k.alpha.topRows(words) = k.task.alpha.topRows(words);
     }
     Attention::forward_gaze(missions, x.mission_of, k.alpha, static_cast<S>(config.gaze_exponent),
-                            k.attention);
+                            static_cast<S>(config.gaze_floor), k.attention);
   }
   FilteredInput<S>::forward(t.input, x.cells, scale(k), k.memory.gates);
   if (config.completion_input) k.memory.gates.noalias() += p.completion * x.completion;
@@ -276,7 +276,7 @@ void Agent<S>::backward(const Params& p, const Tables& t, const Frames<S>& x,
   FilteredInput<S>::backward(t.input, x.cells, scale(k), k.memory.dgates, dt.input, k.dscale);
   if (!config.attention) return;
   Attention::backward_gaze(missions, x.mission_of, k.alpha, static_cast<S>(config.gaze_exponent),
-                           k.dscale, k.attention, k.dalpha);
+                           static_cast<S>(config.gaze_floor), k.dscale, k.attention, k.dalpha);
   if (config.task_attention) {
     TaskAttention<S>::backward(p.task, k.dalpha, k.task, grads.task);
     weigh_words_backward(p, missions, x, k, dt);

@@ -19,7 +19,8 @@ struct Config {
   int task_words = 32;        ///< outputs of the Task Attention Module: longest mission it takes
   int clauses = 4;            ///< length of the completion vector c_t
   double entropy_base = 49;   ///< base of the logarithm in the row entropies H (eq. 2)
-  double gaze_exponent = 2;   ///< p in s(M) = (M / max M)^p
+  double gaze_exponent = 2;   ///< p in s(M) = f + (1 - f) (M / max M)^p
+  double gaze_floor = 0.1;    ///< f: what is left of the darkest cells
   double object_prior = 2;    ///< initial score of every word on objects over other cells; 0: none
   double encoder_bias = 1;    ///< initial bias of the visual encoder: near-linear at the start
   double encoder_leak = 0.1;  ///< slope of its leaky ReLU below zero; 0: plain ReLU
@@ -43,7 +44,9 @@ struct Config {
         Setting{"clauses", &C::clauses, "length of the completion vector c_t", 1, 4},
         Setting{"entropy_base", &C::entropy_base,
                 "base of the logarithm in the row entropies (eq. 2); 2.718281828 or 49", 1.1, 1e6},
-        Setting{"gaze_exponent", &C::gaze_exponent, "p in s(M) = (M / max M)^p", 1, 16},
+        Setting{"gaze_exponent", &C::gaze_exponent, "p in s(M) = f + (1 - f) (M / max M)^p", 1, 16},
+        Setting{"gaze_floor", &C::gaze_floor,
+                "f in it: what is left of the darkest cells; 0: nothing", 0, 1},
         Setting{"object_prior", &C::object_prior,
                 "initial score of every word on objects over other cells; 0 switches it off", 0,
                 16},

@@ -14,7 +14,8 @@ using CellMatrix = Eigen::Matrix<std::uint8_t, grid::kViewCells, Eigen::Dynamic>
 ///
 ///     A_i = softmax over the 49 cells of (q_i . K / sqrt(d_k))     one map a word
 ///     H_i = entropy of A_i,   w = softmax over the words of -H     a sharp map weighs more
-///     M   = sum_i alpha_i w_i A_i,   s = (M / (max M + eps))^p     what scales O~ cell by cell
+///     M   = sum_i alpha_i w_i A_i                                  where the agent looks
+///     s   = f + (1 - f) (M / (max M + eps))^p                      what scales O~ cell by cell
 ///
 /// A score depends on the word and on the code in the cell alone. So scores are a table [P, V], a
 /// map is P numbers (the probability of *one* cell with that code), and sums over cells are sums
@@ -130,7 +131,7 @@ struct TextVisualAttention {
 
   /// M and s(M), from the word weights times the mask alpha [L or more, N].
   static void forward_gaze(const Missions& missions, const std::vector<int>& mission_of,
-                           In<S> alpha, S exponent, Cache& k) {
+                           In<S> alpha, S exponent, S floor, Cache& k) {
     for (Index n = 0; n < k.gaze.cols(); ++n) {
       const Index length = missions[mission_of[static_cast<std::size_t>(n)]].length;
       auto gaze = k.gaze.col(n);
@@ -139,14 +140,17 @@ struct TextVisualAttention {
         gaze += (alpha(i, n) * k.weights(i, n)) * k.maps.col(k.map(n, i));
       }
       const S most = gaze.maxCoeff(&k.peak(n)) + kEpsilon;
-      power(gaze.array() * (S(1) / most), exponent, k.scale.col(n));
+      auto scale = k.scale.col(n).array();
+      power(gaze.array() * (S(1) / most), exponent, scale);
+      scale = floor + (S(1) - floor) * scale;
     }
   }
 
   /// From dscale [P, N] (summed over the cells of each code) to cache.dgaze, cache.dweights and
   /// dalpha [L or more, N], all overwritten.
   static void backward_gaze(const Missions& missions, const std::vector<int>& mission_of,
-                            In<S> alpha, S exponent, In<S> dscale, Cache& k, Out<S> dalpha) {
+                            In<S> alpha, S exponent, S floor, In<S> dscale, Cache& k,
+                            Out<S> dalpha) {
     dalpha.setZero();
     k.dweights.setZero();
     for (Index n = 0; n < k.gaze.cols(); ++n) {
@@ -155,7 +159,7 @@ struct TextVisualAttention {
       auto dgaze = k.dgaze.col(n).array();
       Codes slope(gaze.size());
       power(gaze * inverse, exponent - S(1), slope);
-      dgaze = dscale.col(n).array() * slope * (exponent * inverse);
+      dgaze = dscale.col(n).array() * slope * ((S(1) - floor) * exponent * inverse);
       dgaze(k.peak(n)) -= (dgaze * gaze).sum() * inverse;
       const Index length = missions[mission_of[static_cast<std::size_t>(n)]].length;
       for (Index i = 0; i < length; ++i) {
