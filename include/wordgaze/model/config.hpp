@@ -8,6 +8,7 @@ namespace wordgaze::model {
 struct Config {
   bool attention = true;          ///< false: the baseline, F = O~
   bool task_attention = false;    ///< the Task Attention Module
+  bool task_places = false;       ///< it reads the weighted words place by place, not their sum
   bool completion_input = false;  ///< c_t goes to the memory, beside the filtered view
   int channels = 16;              ///< C: feature maps of the visual encoding O~
   int word_size = 16;             ///< E: word embedding g~
@@ -30,6 +31,9 @@ struct Config {
     return std::tuple{
         Setting{"attention", &C::attention, "text-visual attention; false is the baseline"},
         Setting{"task_attention", &C::task_attention, "the Task Attention Module (mask alpha)"},
+        Setting{"task_places", &C::task_places,
+                "the module reads the weighted words place by place instead of their sum, which "
+                "does not know their order"},
         Setting{"completion_input", &C::completion_input,
                 "the memory reads c_t too; an ablation of the Task Attention Module"},
         Setting{"channels", &C::channels, "C, feature maps of the visual encoding", 1, 1024},
