@@ -16,7 +16,7 @@ bool reachable(const grid::World& world, grid::Position target) {
   const auto index = [&](grid::Position p) {
     return static_cast<std::size_t>(p.y * world.grid.width() + p.x);
   };
-  std::vector<bool> seen(index({0, world.grid.height()}));
+  std::vector<bool> seen(static_cast<std::size_t>(world.grid.width() * world.grid.height()));
   std::vector<grid::Position> open{world.agent};
   while (!open.empty()) {
     const auto from = open.back();
@@ -53,8 +53,9 @@ void huddle(env::Environment& environment, core::Rng& rng) {
   for (grid::ObjectId id = grid::kWall + 1; id < world.objects.size(); ++id) {
     if (id == target || !world.stands(id)) continue;
     const auto home = world.object(id).position;
-    const int dx = rng.below(3) - 1, dy = rng.below(3) - 1;
-    const grid::Position to{center.x + dx, center.y + dy};
+    const auto dx = static_cast<std::int16_t>(rng.below(3) - 1);
+    const auto dy = static_cast<std::int16_t>(rng.below(3) - 1);
+    const grid::Position to = center + grid::Position{dx, dy};
     if (world.grid[to] != grid::kNothing || to == world.agent) continue;
     environment.move_object(id, to);
     if (!targets_reachable()) environment.move_object(id, home);
