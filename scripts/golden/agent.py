@@ -22,7 +22,8 @@ SIZES = {"channels": 3, "word_size": 4, "key_size": 3, "memory_size": 3, "text_s
 VARIANTS = {
     "baseline": {"attention": False, "encoder_leak": 0},
     "attention_p1": {"attention": True, "gaze_exponent": 1, "entropy_base": math.e},
-    "attention_p2": {"attention": True, "gaze_exponent": 2, "entropy_base": 49},
+    "attention_p2": {"attention": True, "gaze_exponent": 2, "gaze_floor": 0.1,
+                     "entropy_base": 49},
     "task_attention": {"attention": True, "task_attention": True, "gaze_exponent": 2,
                        "entropy_base": 49},
     "attention_3x3": {"attention": True, "encoder": "3x3"},
@@ -126,7 +127,8 @@ def filter_view(p, config, view, mission, completion):
         seen["alpha"] = seen["mask_logits"].sigmoid()[:len(mission)]
         weights = seen["alpha"] * weights
     gaze = weights @ maps
-    scale = (gaze / (gaze.max() + 1e-6)) ** config["gaze_exponent"]
+    floor = config["gaze_floor"]
+    scale = floor + (1 - floor) * (gaze / (gaze.max() + 1e-6)) ** config["gaze_exponent"]
     return view * scale, seen | {"gaze": gaze, "scale": scale}
 
 
@@ -160,8 +162,8 @@ def numbers(value):
 
 
 def make(name, variant):
-    config = SIZES | {"task_attention": False, "gaze_exponent": 2, "entropy_base": 49,
-                      "encoder_leak": 0.1, "encoder": "1x1"} | variant
+    config = SIZES | {"task_attention": False, "gaze_exponent": 2, "gaze_floor": 0,
+                      "entropy_base": 49, "encoder_leak": 0.1, "encoder": "1x1"} | variant
     choice = random.Random(f"{SEED} {name}")
     given = random_parameters(choice, config)
     frames = [random_frame(choice, config, t, b) for t in range(STEPS) for b in range(LANES)]

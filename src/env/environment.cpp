@@ -107,6 +107,15 @@ void Environment::set_instruction(const babyai::Instruction& instruction) {
   verifier_.begin(world_, instruction, spec_->done_mode);
 }
 
+void Environment::move_object(grid::ObjectId id, grid::Position to) {
+  require(id < world_.objects.size() && world_.stands(id),
+          "move_object: object {} does not stand in the grid", id);
+  require(world_.grid.contains(to) && world_.grid[to] == grid::kNothing && to != world_.agent,
+          "move_object: cell ({}, {}) is not empty", to.x, to.y);
+  world_.grid[world_.object(id).position] = grid::kNothing;
+  world_.put(id, to);
+}
+
 void Environment::mark_completed(int clause) {
   const auto turns = verifier_.declarable();
   require(clause >= 0 && clause < static_cast<int>(turns.size()) && turns[clause] != 0,

@@ -83,6 +83,7 @@ const std::vector<T>& get_list(const TensorMap& map, std::string_view name) {
 }
 
 constexpr std::size_t kRngWords = 6;
+constexpr std::int64_t kCounters = 7;  // of a lane
 
 void put_rng(std::vector<std::int64_t>& to, const core::Rng::State& s) {
   for (const std::uint64_t word : {s.state_high, s.state_low, s.increment_high, s.increment_low,
@@ -138,7 +139,9 @@ void put_lanes(TensorMap& map, const std::vector<Lane>& lanes, Index memory) {
     environments.insert(environments.end(), lane.environment.begin(), lane.environment.end());
     sizes.push_back(static_cast<std::int64_t>(lane.environment.size()));
     put_rng(rngs, lane.rng);
-    counters.insert(counters.end(), {lane.episode, lane.begins, lane.helped});
+    counters.insert(counters.end(),
+                    {lane.episode, lane.begins, lane.helped, lane.stretch.ahead.near,
+                     lane.stretch.ahead.gap, lane.stretch.aside.near, lane.stretch.aside.gap});
     returns.push_back(lane.episode_return);
     h.col(static_cast<Index>(i)) = lane.h;
     c.col(static_cast<Index>(i)) = lane.c;
@@ -147,7 +150,7 @@ void put_lanes(TensorMap& map, const std::vector<Lane>& lanes, Index memory) {
   map.tensors.emplace("lanes.environment", list(std::move(environments)));
   map.tensors.emplace("lanes.environment_size", list(std::move(sizes)));
   map.tensors.emplace("lanes.rng", Tensor{{n, std::int64_t{kRngWords}}, std::move(rngs)});
-  map.tensors.emplace("lanes.counters", Tensor{{n, 3}, std::move(counters)});
+  map.tensors.emplace("lanes.counters", Tensor{{n, kCounters}, std::move(counters)});
   map.tensors.emplace("lanes.return", list(std::move(returns)));
   map.tensors.emplace("lanes.h", tensor_of(h));
   map.tensors.emplace("lanes.c", tensor_of(c));
@@ -158,7 +161,7 @@ std::vector<Lane> get_lanes(const TensorMap& map, const rl::TrainConfig& config)
   const auto& environments = get_list<std::uint8_t>(map, "lanes.environment");
   const auto& sizes = values_of<std::int64_t>(map, "lanes.environment_size", {n});
   const auto& rngs = values_of<std::int64_t>(map, "lanes.rng", {n, kRngWords});
-  const auto& counters = values_of<std::int64_t>(map, "lanes.counters", {n, 3});
+  const auto& counters = values_of<std::int64_t>(map, "lanes.counters", {n, kCounters});
   const auto& returns = values_of<double>(map, "lanes.return", {n});
   Matrix<float> h(config.model.memory_size, n), c = h;
   copy_tensor(map, "lanes.h", h);
@@ -172,11 +175,18 @@ std::vector<Lane> get_lanes(const TensorMap& map, const rl::TrainConfig& config)
     }
     const auto* begin = environments.data() + offset;
     offset += size;
+    const auto counter = [&](std::size_t k) {
+      return counters[static_cast<std::size_t>(kCounters) * i + k];
+    };
+    const auto axis = [&](std::size_t k) {
+      return rl::Stretch::Axis{static_cast<int>(counter(k)), static_cast<int>(counter(k + 1))};
+    };
     lanes[i] = {.environment = {begin, begin + size},
                 .rng = get_rng(&rngs[i * kRngWords]),
-                .begins = counters[3 * i + 1] != 0,
-                .helped = counters[3 * i + 2] != 0,
-                .episode = counters[3 * i],
+                .begins = counter(1) != 0,
+                .helped = counter(2) != 0,
+                .stretch = {.ahead = axis(3), .aside = axis(5)},
+                .episode = counter(0),
                 .episode_return = returns[i],
                 .h = h.col(static_cast<Index>(i)),
                 .c = c.col(static_cast<Index>(i))};

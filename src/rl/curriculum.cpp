@@ -1,6 +1,7 @@
 #include "wordgaze/rl/curriculum.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "wordgaze/optim/schedule.hpp"
 
@@ -9,6 +10,57 @@ namespace wordgaze::rl {
 using babyai::Verb;
 
 namespace {
+
+/// Whether the agent can walk to a cell beside this one.
+bool reachable(const grid::World& world, grid::Position target) {
+  const auto index = [&](grid::Position p) {
+    return static_cast<std::size_t>(p.y * world.grid.width() + p.x);
+  };
+  std::vector<bool> seen(static_cast<std::size_t>(world.grid.width() * world.grid.height()));
+  std::vector<grid::Position> open{world.agent};
+  while (!open.empty()) {
+    const auto from = open.back();
+    open.pop_back();
+    for (const auto direction : {grid::Direction::right, grid::Direction::down,
+                                 grid::Direction::left, grid::Direction::up}) {
+      const auto to = from + grid::forward(direction);
+      if (to == target) return true;
+      if (world.grid[to] != grid::kNothing || seen[index(to)]) continue;
+      seen[index(to)] = true;
+      open.push_back(to);
+    }
+  }
+  return false;
+}
+
+grid::ObjectId first_of(grid::ObjectSet set) {
+  return static_cast<grid::ObjectId>(std::countr_zero(set));
+}
+
+/// Moves objects to cells around the target of the first clause, as long as the agent can still
+/// walk to every target.
+void huddle(env::Environment& environment, core::Rng& rng) {
+  const auto& world = environment.world();
+  const auto& meant = environment.meaning().object;
+  const auto targets_reachable = [&] {
+    return std::all_of(meant.begin(), meant.end(), [&](grid::ObjectSet set) {
+      return set == 0 || reachable(world, world.object(first_of(set)).position);
+    });
+  };
+  if (meant[0] == 0 || babyai::several(meant[0])) return;
+  const auto target = first_of(meant[0]);
+  const auto center = world.object(target).position;
+  for (grid::ObjectId id = grid::kWall + 1; id < world.objects.size(); ++id) {
+    if (id == target || !world.stands(id)) continue;
+    const auto home = world.object(id).position;
+    const auto dx = static_cast<std::int16_t>(rng.below(3) - 1);
+    const auto dy = static_cast<std::int16_t>(rng.below(3) - 1);
+    const grid::Position to = center + grid::Position{dx, dy};
+    if (world.grid[to] != grid::kNothing || to == world.agent) continue;
+    environment.move_object(id, to);
+    if (!targets_reachable()) environment.move_object(id, home);
+  }
+}
 
 /// Marks a clause whose turn it is; where there are several, either is a fair start.
 void complete_one(env::Environment& environment, core::Rng& rng) {
@@ -38,7 +90,8 @@ double Curriculum::Window::rate() const {
 Curriculum::Curriculum(const CurriculumConfig& config)
     : config_(config), pickup_only_(config.pickup_first), half_done_(config.half_done_start) {}
 
-bool Curriculum::prepare(env::Environment& environment, core::Rng& rng) const {
+Curriculum::Preparation Curriculum::prepare(env::Environment& environment, core::Rng& rng) const {
+  Preparation prepared;
   babyai::Instruction wanted = environment.instruction();
   if (config_.single_clause > 0 && wanted.clauses() > 1 && rng.uniform() < config_.single_clause) {
     const auto pick = static_cast<std::size_t>(rng.below(wanted.clauses()));
@@ -53,12 +106,22 @@ bool Curriculum::prepare(env::Environment& environment, core::Rng& rng) const {
     }
   }
   if (wanted != environment.instruction()) environment.set_instruction(wanted);
-  if (half_done_ == 0 || wanted.clauses() < 2 || rng.uniform() >= half_done_) return false;
-  // From one clause to all but one, in an order that the mission allows.
-  const int most = wanted.clauses() - 1;
-  const int marks = most > 1 ? 1 + rng.below(most) : 1;
-  for (int i = 0; i < marks; ++i) complete_one(environment, rng);
-  return true;
+  if (!pickup_only_ && config_.huddle > 0 && rng.uniform() < config_.huddle) {
+    huddle(environment, rng);
+    prepared.helped = true;
+  }
+  if (!pickup_only_ && config_.stretch > 0 && rng.uniform() < config_.stretch) {
+    prepared.stretch = Stretch::draw(rng);
+    prepared.helped = true;
+  }
+  if (half_done_ > 0 && wanted.clauses() > 1 && rng.uniform() < half_done_) {
+    // From one clause to all but one, in an order that the mission allows.
+    const int most = wanted.clauses() - 1;
+    const int marks = most > 1 ? 1 + rng.below(most) : 1;
+    for (int i = 0; i < marks; ++i) complete_one(environment, rng);
+    prepared.helped = true;
+  }
+  return prepared;
 }
 
 void Curriculum::observe(const std::vector<Outcome>& outcomes, std::int64_t frames) {

@@ -33,7 +33,9 @@ LaneGroup::LaneGroup(const Agent& agent, const TrainConfig& config, const babyai
 
 void LaneGroup::start_episode(int index, const Curriculum& curriculum) {
   Lane& lane = lanes_[static_cast<std::size_t>(index)];
-  lane.helped = curriculum.prepare(lane.environment, lane.rng);
+  const auto prepared = curriculum.prepare(lane.environment, lane.rng);
+  lane.helped = prepared.helped;
+  lane.stretch = prepared.stretch;
   lane.episode_return = 0;
   actor_.begin(index, lane.environment.sentence());
 }
@@ -72,9 +74,13 @@ void LaneGroup::collect(const Agent::Params& params, const Agent::Tables& tables
 }
 
 void LaneGroup::look() {
-  for (int b = 0; b < actor_.lanes(); ++b) {
-    actor_.observe(b, lanes_[static_cast<std::size_t>(b)].environment);
-  }
+  for (int b = 0; b < actor_.lanes(); ++b) look(b);
+}
+
+void LaneGroup::look(int b) {
+  const Lane& lane = lanes_[static_cast<std::size_t>(b)];
+  actor_.observe(b, lane.environment);
+  lane.stretch.apply(agent_->alphabet, actor_.frames().cells.col(b));
 }
 
 void LaneGroup::step_lane(int b, Index column, const Curriculum& curriculum, Rollout& rollout,
@@ -95,7 +101,8 @@ void LaneGroup::step_lane(int b, Index column, const Curriculum& curriculum, Rol
   rollout.bright[n] =
       model::bright_clauses(ppo_->mask_truth, environment.completion(), environment.declarable());
   hits_.add(*agent_, actor_, b, environment);
-  if (observer != nullptr && environment.step_count() == 0) {
+  // A stretched view is not what a record would show.
+  if (observer != nullptr && environment.step_count() == 0 && lane.stretch == Stretch{}) {
     recorder_.emplace(*observer);
     if (!recorder_->begin(lane.episode, first_, 0, environment)) recorder_.reset();
   }
@@ -139,7 +146,7 @@ void LaneGroup::keep_cut(int b, Index column) {
   if (cut_count_ == cuts_.size()) cuts_.emplace_back();
   Cut& cut = cuts_[cut_count_++];
   const int lane_mission = actor_.frames().mission_of[static_cast<std::size_t>(b)];
-  actor_.observe(b, lanes_[static_cast<std::size_t>(b)].environment);  // the final observation
+  look(b);  // the final observation
   cut.column = column;
   cut.mission = lane_mission;
   cut.cells = actor_.frames().cells.col(b);
@@ -178,6 +185,7 @@ LaneGroup::LaneState LaneGroup::state(int b) const {
           .rng = lane.rng.state(),
           .begins = frames.keep(0, b) == 0,
           .helped = lane.helped,
+          .stretch = lane.stretch,
           .episode = lane.episode,
           .episode_return = lane.episode_return,
           .h = frames.start.h.col(b),
@@ -189,6 +197,7 @@ void LaneGroup::restore(int b, const LaneState& state) {
   lane.environment.restore(state.environment);
   lane.rng = core::Rng(state.rng);
   lane.helped = state.helped;
+  lane.stretch = state.stretch;
   lane.episode = state.episode;
   lane.episode_return = state.episode_return;
   actor_.begin(b, lane.environment.sentence());

@@ -240,6 +240,23 @@ TEST(Environment, MarksAClauseAsDone) {
   EXPECT_THROW(env.mark_completed(2), std::invalid_argument);
 }
 
+TEST(Environment, MovesAnObjectToAnEmptyCell) {
+  Environment env("Wordgaze-One-N8-K1-v0");
+  env.reset(3);
+  const grid::ObjectId object = grid::kWall + 1;
+  const grid::Position home = env.world().object(object).position;
+  grid::Position to{1, 1};
+  while (env.world().grid[to] != grid::kNothing || to == env.world().agent) ++to.x;
+  env.move_object(object, to);
+  EXPECT_EQ(env.world().grid[home], grid::kNothing);
+  EXPECT_EQ(env.world().grid[to], object);
+  EXPECT_TRUE(env.world().stands(object));
+  EXPECT_THROW(env.move_object(object, env.world().agent), std::invalid_argument);
+  EXPECT_THROW(env.move_object(object, {0, 0}), std::invalid_argument);
+  EXPECT_THROW(env.move_object(object, {99, 0}), std::invalid_argument);
+  EXPECT_THROW(env.move_object(grid::kWall, home), std::invalid_argument);
+}
+
 TEST(Environment, EndsWhenNothingIsLeftToBeDeclared) {
   Environment env = two_clauses(babyai::Order::any);
   const Transition t = env.step(Action::done);

@@ -21,6 +21,12 @@ Config variant(bool attention, bool task_attention, double exponent = 2) {
   return c;
 }
 
+Config with_task_places() {
+  Config c = variant(true, true);
+  c.task_places = true;
+  return c;
+}
+
 Config with_completion_input() {
   Config c = variant(true, false);
   c.completion_input = true;
@@ -110,9 +116,10 @@ struct PlainTwin {
     Vector<double> w = (-entropy.array()).exp();
     w /= w.sum();
     if (c.task_attention) {
-      Vector<double> x = Vector<double>::Zero(c.word_size + c.clauses);
+      Vector<double> x = Vector<double>::Zero(f.params.task.hidden.weight.cols());
       for (int i = 0; i < s.length; ++i) {
-        x.head(c.word_size) += w(i) * f.params.words.col(s.words[i]);
+        const Index row = c.task_places ? i * c.word_size : 0;
+        x.segment(row, c.word_size) += w(i) * f.params.words.col(s.words[i]);
       }
       x.tail(c.clauses) = f.frames.completion.col(n);
       const auto& t = f.params.task;
@@ -121,7 +128,8 @@ struct PlainTwin {
       w.array() *= alpha.head(s.length).array();
     }
     const Vector<double> gaze = maps.transpose() * w;
-    return (gaze.array() / (gaze.maxCoeff() + 1e-6)).pow(c.gaze_exponent);
+    return c.gaze_floor +
+           (1 - c.gaze_floor) * (gaze.array() / (gaze.maxCoeff() + 1e-6)).pow(c.gaze_exponent);
   }
 
   /// Logits over value, [8, N].
@@ -228,21 +236,24 @@ TEST_P(AgentVariant, AllocatesNothingAfterTheFirstPass) {
   Eigen::internal::set_is_malloc_allowed(true);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Readings, AgentVariant,
-    testing::Values(variant(false, false), variant(true, false), variant(true, false, 1),
-                    variant(true, false, 3), variant(true, true), variant(true, true, 1),
-                    with_completion_input(), with_patches(variant(false, false)),
-                    with_patches(variant(true, false)), with_patches(variant(true, true, 1))),
-    [](const auto& variant_info) {
-      const Config& c = variant_info.param;
-      return std::string(c.encoder == Encoder::patch ? "Patch" : "") +
-             std::string(c.completion_input ? "CompletionInput"
-                         : c.task_attention ? "TaskAttention"
-                         : c.attention      ? "Attention"
-                                            : "Baseline") +
-             "P" + std::to_string(static_cast<int>(c.gaze_exponent));
-    });
+INSTANTIATE_TEST_SUITE_P(Readings, AgentVariant,
+                         testing::Values(variant(false, false), variant(true, false),
+                                         variant(true, false, 1), variant(true, false, 3),
+                                         variant(true, true), variant(true, true, 1),
+                                         with_completion_input(), with_task_places(),
+                                         with_patches(variant(false, false)),
+                                         with_patches(variant(true, false)),
+                                         with_patches(variant(true, true, 1))),
+                         [](const auto& variant_info) {
+                           const Config& c = variant_info.param;
+                           return std::string(c.encoder == Encoder::patch ? "Patch" : "") +
+                                  std::string(c.completion_input ? "CompletionInput"
+                                              : c.task_places    ? "TaskPlaces"
+                                              : c.task_attention ? "TaskAttention"
+                                              : c.attention      ? "Attention"
+                                                                 : "Baseline") +
+                                  "P" + std::to_string(static_cast<int>(c.gaze_exponent));
+                         });
 
 TEST(Agent, AttentionIsADistribution) {
   AgentFixture<double> f(variant(true, true));

@@ -29,6 +29,7 @@ Config config_of(const Json& j) {
   c.clauses = j.at("clauses");
   c.entropy_base = j.at("entropy_base");
   c.gaze_exponent = j.at("gaze_exponent");
+  c.gaze_floor = j.at("gaze_floor");
   c.encoder_leak = j.at("encoder_leak");
   return c;
 }

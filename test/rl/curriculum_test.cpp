@@ -3,14 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstdlib>
 #include <set>
 
 namespace wordgaze::rl {
 namespace {
 
 Curriculum half_done(double share) {
-  return Curriculum(
-      {.pickup_first = false, .balance = false, .half_done_start = share, .half_done_end = share});
+  return Curriculum({.pickup_first = false,
+                     .balance = false,
+                     .half_done_start = share,
+                     .half_done_end = share,
+                     .stretch = 0,
+                     .huddle = 0});
 }
 
 /// The clauses marked at the starts of 200 episodes, as lists of 0/1.
@@ -22,7 +28,7 @@ std::set<std::vector<int>> starts(const char* id, babyai::Order order) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     environment.reset(seed);
     if (environment.instruction().order != order) continue;
-    EXPECT_TRUE(curriculum.prepare(environment, rng));
+    EXPECT_TRUE(curriculum.prepare(environment, rng).helped);
     const auto c = environment.completion();
     seen.emplace(c.begin(), c.end());
   }
@@ -48,9 +54,91 @@ TEST(Curriculum, LeavesTheEpisodesAloneThatItIsNotToHelp) {
   environment.reset(1);
   const auto instruction = environment.instruction();
   core::Rng rng(1);
-  EXPECT_FALSE(curriculum.prepare(environment, rng));
+  EXPECT_FALSE(curriculum.prepare(environment, rng).helped);
   EXPECT_EQ(environment.instruction(), instruction);
   EXPECT_EQ(std::ranges::count(environment.completion(), 1), 0);
+}
+
+CurriculumConfig only(double stretch, double huddle) {
+  CurriculumConfig c;
+  c.pickup_first = c.balance = false;
+  c.stretch = stretch;
+  c.huddle = huddle;
+  return c;
+}
+
+/// How many of the three other objects lie in the eight cells around the target.
+int neighbors_of_target(const env::Environment& environment) {
+  const auto& world = environment.world();
+  const auto target = std::countr_zero(environment.meaning().object[0]);
+  const auto center = world.objects[static_cast<std::size_t>(target)].position;
+  int count = -1;  // the target itself
+  for (std::size_t id = grid::kWall + 1; id < world.objects.size(); ++id) {
+    const auto p = world.objects[id].position;
+    count += std::abs(p.x - center.x) <= 1 && std::abs(p.y - center.y) <= 1;
+  }
+  return count;
+}
+
+TEST(Curriculum, HuddlesTheOtherObjectsAroundTheTarget) {
+  env::Environment environment("Wordgaze-One-N8-K4-v0");
+  const Curriculum curriculum(only(0, 1));
+  core::Rng rng(1);
+  int before = 0, after = 0;
+  for (int seed = 0; seed < 100; ++seed) {
+    environment.reset(seed);
+    const auto objects = environment.world().objects.size();
+    before += neighbors_of_target(environment);
+    EXPECT_TRUE(curriculum.prepare(environment, rng).helped);
+    after += neighbors_of_target(environment);
+    EXPECT_EQ(environment.world().objects.size(), objects);
+  }
+  EXPECT_LT(before, 100);
+  EXPECT_GT(after, 170);
+}
+
+TEST(Curriculum, NeverLocksATargetUp) {
+  // Of nine cells five are taken: a careless huddle would wall the target or the agent in.
+  env::Environment environment("Wordgaze-One-N5-K4-v0");
+  const Curriculum curriculum(only(0, 1));
+  core::Rng rng(1);
+  for (int seed = 0; seed < 200; ++seed) {
+    environment.reset(seed);
+    curriculum.prepare(environment, rng);
+    const auto& world = environment.world();
+    const auto target = std::countr_zero(environment.meaning().object[0]);
+    const auto center = world.objects[static_cast<std::size_t>(target)].position;
+    bool open = false;
+    for (const auto d : {grid::Direction::right, grid::Direction::down, grid::Direction::left,
+                         grid::Direction::up}) {
+      const auto p = center + grid::forward(d);
+      open = open || world.grid[p] == grid::kNothing || p == world.agent;
+    }
+    EXPECT_TRUE(open) << "seed " << seed;
+  }
+}
+
+TEST(Curriculum, StretchesAShareOfTheEpisodes) {
+  env::Environment environment("Wordgaze-One-N8-K4-v0");
+  const Curriculum curriculum(only(0.5, 0));
+  core::Rng rng(1);
+  int helped = 0;
+  for (int seed = 0; seed < 400; ++seed) {
+    environment.reset(seed);
+    const auto prepared = curriculum.prepare(environment, rng);
+    EXPECT_TRUE(prepared.helped || prepared.stretch == Stretch{});
+    helped += prepared.helped;
+  }
+  EXPECT_NEAR(helped, 200, 40);
+}
+
+TEST(Curriculum, ChangesNoViewAndNoWorldWhilePickupComesFirst) {
+  CurriculumConfig config = only(1, 1);
+  config.pickup_first = true;
+  env::Environment environment("Wordgaze-One-N8-K4-v0");
+  core::Rng rng(1);
+  environment.reset(1);
+  EXPECT_FALSE(Curriculum(config).prepare(environment, rng).helped);
 }
 
 }  // namespace

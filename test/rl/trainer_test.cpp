@@ -32,6 +32,15 @@ TrainConfig small_two_clauses(int threads = 1) {
   return c;
 }
 
+/// Episodes that the curriculum changes from the first one on.
+TrainConfig small_changed() {
+  TrainConfig c = small();
+  c.curriculum.pickup_first = false;
+  c.curriculum.stretch = 0.5;
+  c.curriculum.huddle = 0.5;
+  return c;
+}
+
 bool same_bits(const Agent::Params& a, const Agent::Params& b) {
   bool same = true;
   nn::for_each_parameter([&](const nn::Path&, const auto& x, const auto& y) { same &= x == y; }, a,
@@ -73,13 +82,14 @@ TEST_P(TrainerVariant, ARestoredRunGoesOnBitForBit) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Settings, TrainerVariant,
-                         testing::Values(small(1), small(2), small_two_clauses(1),
+                         testing::Values(small(1), small(2), small_changed(), small_two_clauses(1),
                                          small_two_clauses(2), small_patches(2)),
                          [](const auto& c) {
                            const bool patches = c.param.model.encoder == model::Encoder::patch;
-                           return std::string(patches ? "Patches" : "") +
-                                  std::string(c.param.model.task_attention ? "Two" : "One") +
-                                  "ClausesOn" + std::to_string(c.param.threads) + "Threads";
+                           return std::string(c.param.curriculum.pickup_first ? "" : "Changed") +
+                                  (patches ? "Patches" : "") +
+                                  (c.param.model.task_attention ? "Two" : "One") + "ClausesOn" +
+                                  std::to_string(c.param.threads) + "Threads";
                          });
 
 TEST(Trainer, ThreadsChangeTheLastBitsOnly) {

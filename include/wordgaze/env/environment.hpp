@@ -93,6 +93,9 @@ class Environment {
   /// Starts with a clause already done. Throws std::invalid_argument unless it is declarable and
   /// another one is left.
   void mark_completed(int clause);
+  /// Puts an object that stands in the grid into an empty cell of it. Throws std::invalid_argument
+  /// for any other object or cell.
+  void move_object(grid::ObjectId id, grid::Position to);
 
   /// The complete state, random stream included.
   std::vector<std::uint8_t> serialize() const;

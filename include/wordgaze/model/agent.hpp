@@ -187,7 +187,12 @@ struct Agent {
   /// Sizes the cache for these frames; does nothing from the second call on.
   void fit(nn::SequenceShape shape, Index longest, Cache& k) const;
 
-  /// The task module's input: sum_i w_i e_i over c_t.
+  /// The task module's input: sum_i w_i e_i, or the w_i e_i one below the other, over c_t.
+  Index weighed_size() const {
+    return config.task_places ? config.task_words * config.word_size : config.word_size;
+  }
+  /// The row of that input from which word i is added.
+  Index weighed_row(Index i) const { return config.task_places ? i * config.word_size : 0; }
   void weigh_words(const Params& p, const Missions& missions, const Frames<S>& x, Cache& k) const;
   void weigh_words_backward(const Params& p, const Missions& missions, const Frames<S>& x, Cache& k,
                             Tables& dt) const;
@@ -210,7 +215,7 @@ typename Agent<S>::Params Agent<S>::make_params() const {
   Memory::resize(p.memory, grid::kViewCells * c.channels, c.memory_size);
   nn::Gru<S>::resize(p.text, c.word_size, c.text_size);
   if (c.task_attention) {
-    nn::Linear<S>::resize(p.task.hidden, c.word_size + c.clauses, c.task_size);
+    nn::Linear<S>::resize(p.task.hidden, weighed_size() + c.clauses, c.task_size);
     nn::Linear<S>::resize(p.task.output, c.task_size, c.task_words);
   }
   if (c.completion_input) p.completion.resize(4 * c.memory_size, c.clauses);
@@ -306,7 +311,7 @@ void Agent<S>::forward(const Params& p, const Tables& t, const Frames<S>& x,
       k.alpha.topRows(words) = k.task.alpha.topRows(words);
     }
     Attention::forward_gaze(missions, x.mission_of, k.alpha, static_cast<S>(config.gaze_exponent),
-                            k.attention);
+                            static_cast<S>(config.gaze_floor), k.attention);
   }
   if (sees_patches()) {
     FilteredMap<S>::forward(k.patches.output, scale(k), k.filtered);
@@ -351,7 +356,7 @@ void Agent<S>::backward(const Params& p, const Tables& t, const Frames<S>& x,
   }
   if (config.attention) {
     Attention::backward_gaze(missions, x.mission_of, k.alpha, static_cast<S>(config.gaze_exponent),
-                             k.dscale, k.attention, k.dalpha);
+                             static_cast<S>(config.gaze_floor), k.dscale, k.attention, k.dalpha);
     if (config.task_attention) {
       TaskAttention<S>::backward(p.task, k.dalpha, k.task, grads.task);
       weigh_words_backward(p, missions, x, k, dt);
@@ -426,7 +431,7 @@ void Agent<S>::fit(nn::SequenceShape shape, Index longest, Cache& k) const {
     }
   }
   if (config.task_attention) {
-    k.task.resize(config.word_size + config.clauses, config.task_size, config.task_words, frames);
+    k.task.resize(weighed_size() + config.clauses, config.task_size, config.task_words, frames);
   }
   k.memory.resize(config.memory_size, shape);
   k.actor.resize(config.head_size, grid::kActions, frames);
@@ -443,12 +448,12 @@ void Agent<S>::fit(nn::SequenceShape shape, Index longest, Cache& k) const {
 template <std::floating_point S>
 void Agent<S>::weigh_words(const Params& p, const Missions& missions, const Frames<S>& x,
                            Cache& k) const {
-  k.task.x.topRows(config.word_size).setZero();
+  k.task.x.topRows(weighed_size()).setZero();
   k.task.x.bottomRows(config.clauses) = x.completion;
   for (Index n = 0; n < x.shape.columns(); ++n) {
     const auto& sentence = missions[x.mission_of[static_cast<std::size_t>(n)]];
     for (Index i = 0; i < sentence.length; ++i) {
-      k.task.x.col(n).head(config.word_size) +=
+      k.task.x.col(n).segment(weighed_row(i), config.word_size) +=
           k.attention.weights(i, n) * p.words.col(sentence.words[static_cast<std::size_t>(i)]);
     }
   }
@@ -459,8 +464,8 @@ void Agent<S>::weigh_words_backward(const Params& p, const Missions& missions, c
                                     Cache& k, Tables& dt) const {
   for (Index n = 0; n < x.shape.columns(); ++n) {
     const auto& sentence = missions[x.mission_of[static_cast<std::size_t>(n)]];
-    const auto dx = k.task.dx.col(n).head(config.word_size);
     for (Index i = 0; i < sentence.length; ++i) {
+      const auto dx = k.task.dx.col(n).segment(weighed_row(i), config.word_size);
       const Index word = sentence.words[static_cast<std::size_t>(i)];
       k.attention.dweights(i, n) += p.words.col(word).dot(dx);
       dt.words.col(word) += k.attention.weights(i, n) * dx;

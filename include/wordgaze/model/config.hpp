@@ -18,6 +18,7 @@ constexpr std::array<std::string_view, 2> names(Encoder) { return {"1x1", "3x3"}
 struct Config {
   bool attention = true;          ///< false: the baseline, F = O~
   bool task_attention = false;    ///< the Task Attention Module
+  bool task_places = false;       ///< it reads the weighted words place by place, not their sum
   bool completion_input = false;  ///< c_t goes to the memory, beside the filtered view
   Encoder encoder = Encoder::cell;
   int channels = 16;          ///< C: feature maps of the visual encoding O~
@@ -30,7 +31,8 @@ struct Config {
   int task_words = 32;        ///< outputs of the Task Attention Module: longest mission it takes
   int clauses = 4;            ///< length of the completion vector c_t
   double entropy_base = 49;   ///< base of the logarithm in the row entropies H (eq. 2)
-  double gaze_exponent = 2;   ///< p in s(M) = (M / max M)^p
+  double gaze_exponent = 2;   ///< p in s(M) = f + (1 - f) (M / max M)^p
+  double gaze_floor = 0.1;    ///< f: what is left of the darkest cells
   double object_prior = 2;    ///< initial score of every word on objects over other cells; 0: none
   double encoder_bias = 1;    ///< initial bias of the visual encoder: near-linear at the start
   double encoder_leak = 0.1;  ///< slope of its leaky ReLU below zero; 0: plain ReLU
@@ -40,6 +42,9 @@ struct Config {
     return std::tuple{
         Setting{"attention", &C::attention, "text-visual attention; false is the baseline"},
         Setting{"task_attention", &C::task_attention, "the Task Attention Module (mask alpha)"},
+        Setting{"task_places", &C::task_places,
+                "the module reads the weighted words place by place instead of their sum, which "
+                "does not know their order"},
         Setting{"completion_input", &C::completion_input,
                 "the memory reads c_t too; an ablation of the Task Attention Module"},
         Setting{"encoder", &C::encoder,
@@ -56,7 +61,9 @@ struct Config {
         Setting{"clauses", &C::clauses, "length of the completion vector c_t", 1, 4},
         Setting{"entropy_base", &C::entropy_base,
                 "base of the logarithm in the row entropies (eq. 2); 2.718281828 or 49", 1.1, 1e6},
-        Setting{"gaze_exponent", &C::gaze_exponent, "p in s(M) = (M / max M)^p", 1, 16},
+        Setting{"gaze_exponent", &C::gaze_exponent, "p in s(M) = f + (1 - f) (M / max M)^p", 1, 16},
+        Setting{"gaze_floor", &C::gaze_floor,
+                "f in it: what is left of the darkest cells; 0: nothing", 0, 1},
         Setting{"object_prior", &C::object_prior,
                 "initial score of every word on objects over other cells; 0 switches it off", 0,
                 16},

@@ -7,7 +7,8 @@ namespace wordgaze::model {
 /// words and the completion vector c_t and gives one number in (0, 1) a word: the mask alpha, which
 /// silences the words of finished sub-tasks.
 ///
-/// shapes   x [E + clauses, N]: sum_i w_i e_i over c_t;  alpha [task_words, N]
+/// shapes   x [E + clauses, N]: sum_i w_i e_i (or each w_i e_i in its place) over c_t
+///          alpha [task_words, N]
 /// backward accumulates into grads (+=), writes cache.dx
 template <std::floating_point S>
 struct TaskAttention {

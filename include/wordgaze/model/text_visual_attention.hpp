@@ -13,7 +13,8 @@ namespace wordgaze::model {
 ///
 ///     A_i = softmax over the 49 cells of (q_i . K / sqrt(d_k))     one map a word
 ///     H_i = entropy of A_i,   w = softmax over the words of -H     a sharp map weighs more
-///     M   = sum_i alpha_i w_i A_i,   s = (M / (max M + eps))^p     what scales O~ cell by cell
+///     M   = sum_i alpha_i w_i A_i                                  where the agent looks
+///     s   = f + (1 - f) (M / (max M + eps))^p                      what scales O~ cell by cell
 ///
 /// Cells of one kind share their numbers: a map is P numbers, each the probability of *one* cell of
 /// that kind, and sums over cells are sums over kinds weighted by their counts in the view. Where
@@ -149,7 +150,7 @@ struct TextVisualAttention {
 
   /// M and s(M), from the word weights times the mask alpha [L or more, N].
   static void forward_gaze(const Missions& missions, const std::vector<int>& mission_of,
-                           In<S> alpha, S exponent, Cache& k) {
+                           In<S> alpha, S exponent, S floor, Cache& k) {
     with_size(k.gaze.rows(), [&](auto size) {
       for (Index n = 0; n < k.gaze.cols(); ++n) {
         const Index length = missions[mission_of[static_cast<std::size_t>(n)]].length;
@@ -159,7 +160,9 @@ struct TextVisualAttention {
         }
         const S most = gaze.maxCoeff(&k.peak(n)) + kEpsilon;
         k.gaze.col(n) = gaze;
-        power(gaze * (S(1) / most), exponent, k.scale.col(n));
+        Kinds<size()> scale;
+        power(gaze * (S(1) / most), exponent, scale);
+        k.scale.col(n) = floor + (S(1) - floor) * scale;
       }
     });
   }
@@ -167,7 +170,8 @@ struct TextVisualAttention {
   /// From dscale [P, N] (summed over the cells of each kind) to cache.dgaze, cache.dweights and
   /// dalpha [L or more, N], all overwritten.
   static void backward_gaze(const Missions& missions, const std::vector<int>& mission_of,
-                            In<S> alpha, S exponent, In<S> dscale, Cache& k, Out<S> dalpha) {
+                            In<S> alpha, S exponent, S floor, In<S> dscale, Cache& k,
+                            Out<S> dalpha) {
     dalpha.setZero();
     k.dweights.setZero();
     with_size(k.gaze.rows(), [&](auto size) {
@@ -176,7 +180,7 @@ struct TextVisualAttention {
         const S inverse = S(1) / (gaze(k.peak(n)) + kEpsilon);
         Kinds<size()> dgaze;
         power(gaze * inverse, exponent - S(1), dgaze);
-        dgaze *= dscale.col(n).array() * (exponent * inverse);
+        dgaze *= dscale.col(n).array() * ((S(1) - floor) * exponent * inverse);
         dgaze(k.peak(n)) -= (dgaze * gaze).sum() * inverse;
         k.dgaze.col(n) = dgaze;
         const Index length = missions[mission_of[static_cast<std::size_t>(n)]].length;

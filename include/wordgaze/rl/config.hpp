@@ -75,6 +75,8 @@ struct CurriculumConfig {
   double half_done_end = 0;
   double half_done_frames = 6e5;
   double single_clause = 0;
+  double stretch = 0.5;
+  double huddle = 0.3;
 
   static constexpr auto settings() {
     using C = CurriculumConfig;
@@ -87,6 +89,11 @@ struct CurriculumConfig {
         Setting{"half_done_end", &C::half_done_end, "and from half_done_frames on", 0, 1},
         Setting{"half_done_frames", &C::half_done_frames, "frames over which it changes", 0, 1e12},
         Setting{"single_clause", &C::single_clause, "share of episodes cut down to one clause", 0,
+                1},
+        Setting{"stretch", &C::stretch,
+                "share of episodes whose room seems larger, after pickup_first", 0, 1},
+        Setting{"huddle", &C::huddle,
+                "share of episodes with the other objects around the target, after pickup_first", 0,
                 1},
     };
   }

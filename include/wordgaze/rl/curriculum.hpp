@@ -5,6 +5,7 @@
 
 #include "wordgaze/env/environment.hpp"
 #include "wordgaze/rl/config.hpp"
+#include "wordgaze/rl/stretch.hpp"
 
 namespace wordgaze::rl {
 
@@ -12,21 +13,27 @@ namespace wordgaze::rl {
 struct Outcome {
   babyai::Verb verb{};  ///< of the first clause
   int clauses = 1;
-  bool helped = false;  ///< the curriculum had marked clauses as done
+  bool helped = false;  ///< not the task as it stands: success rates leave it out
   bool success = false, truncated = false;
   int steps = 0;
   double episode_return = 0;
 };
 
 /// Decides what training episodes ask for. Worlds come from the level; the curriculum changes
-/// verbs, cuts a mission down to a clause, or marks the first clauses as done. It learns from
-/// outcomes between rollouts only, so that lanes can ask it at the same time.
+/// verbs, cuts a mission down to a clause, marks the first clauses as done, moves objects around
+/// the target, or makes the room seem larger. It learns from outcomes between rollouts only, so
+/// that lanes can ask it at the same time.
 class Curriculum {
  public:
   explicit Curriculum(const CurriculumConfig& config);
 
-  /// Changes the episode that has just begun. True if it marked clauses as done.
-  bool prepare(env::Environment& environment, core::Rng& rng) const;
+  /// What became of an episode.
+  struct Preparation {
+    bool helped = false;  ///< not the task as it stands: success rates leave it out
+    Stretch stretch;
+  };
+  /// Changes the episode that has just begun.
+  Preparation prepare(env::Environment& environment, core::Rng& rng) const;
 
   /// Learns from what ended since the last call; `frames` were seen in all.
   void observe(const std::vector<Outcome>& outcomes, std::int64_t frames);

@@ -31,6 +31,7 @@ class LaneGroup {
     std::vector<std::uint8_t> environment;
     core::Rng::State rng;
     bool begins = true, helped = false;
+    Stretch stretch;
     std::int64_t episode = 0;
     double episode_return = 0;
     Vector<float> h, c;
@@ -44,6 +45,7 @@ class LaneGroup {
     core::Rng rng;
     double episode_return = 0;
     bool helped = false;
+    Stretch stretch{};
     std::int64_t episode = 0;
   };
   /// A truncated episode: what its final value is to be asked for.
@@ -56,6 +58,7 @@ class LaneGroup {
 
   void start_episode(int lane, const Curriculum& curriculum);
   void look();
+  void look(int lane);
   void step_lane(int lane, Index column, const Curriculum& curriculum, Rollout& rollout,
                  Observer* observer);
   void keep_cut(int lane, Index column);
