@@ -21,7 +21,7 @@ void go_to_red_ball(Layout& layout) {
 
 void go_to_red_ball_among_grey(Layout& layout) {
   const auto [ball, others] = red_ball_and_others(layout);
-  for (int k = 0; k < others.size(); ++k) layout.world.objects[others[k]].color = grid::Color::grey;
+  for (int k = 0; k < others.size(); ++k) layout.world.paint(others[k], grid::Color::grey);
   layout.require_reachable();
   layout.ask(Verb::go_to, layout.describe(ball));
 }

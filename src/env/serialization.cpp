@@ -13,7 +13,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "serialized states are little-endian");
 
 // Behind the mark: a checksum of the rest, the id, the state.
-constexpr std::uint64_t kMark = 0x31656d6167647277;  // "wrdgame1"
+constexpr std::uint64_t kMark = 0x32656d6167647277;  // "wrdgame2"
 
 std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
   std::uint64_t h = 0xCBF29CE484222325;  // FNV-1a
@@ -86,8 +86,8 @@ class Reader {
 template <class Archive, class Env>
 void Environment::archive(Archive& archive, Env& env) {
   auto& w = env.world_;
-  archive(env.rng_, env.seeded_, env.task_, w.objects, w.sight_blockers, w.see_through_walls,
-          w.agent, w.direction, w.carried, w.step_count, w.room_size);
+  archive(env.rng_, env.seeded_, env.task_, w.objects, w.looks, w.see_through_walls, w.agent,
+          w.direction, w.carried, w.step_count, w.room_size);
   w.grid.archive(archive);
   env.verifier_.archive(archive);
 }

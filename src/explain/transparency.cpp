@@ -1,7 +1,6 @@
 #include "wordgaze/explain/transparency.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace wordgaze::explain {
 namespace {
@@ -36,7 +35,7 @@ void Transparency::on_decision(const rl::Decision& decision) {
   add_map(decision, {saliency.product.data(), grid::kViewCells}, roles, product_);
   if (!has_gaze()) return;
   add_map(decision, sight_.gaze, roles, gaze_);
-  if (target_in_view(roles)) add_filter(roles);
+  if (target_in_view(roles)) filter_.add(sight_.filter, roles);
   words_.add(sight_.maps, environment.sentence(), sight_.image);
   weights_.add(sight_.weights, environment.sentence());
   if (has_mask()) add_mask(decision);
@@ -50,15 +49,6 @@ void Transparency::add_map(const rl::Decision& decision, std::span<const float> 
   const Shifts moved = shifts(what_if_, decision, map, roles, rng_);
   report.faithfulness.add(moved);
   if (in_view) report.faithfulness_in_view.add(moved);
-}
-
-/// s(M) is M to a power, up to a factor.
-void Transparency::add_filter(const Roles& roles) {
-  std::array<float, grid::kViewCells> filter;
-  const auto exponent = static_cast<float>(what_if_.agent().config.gaze_exponent);
-  std::transform(sight_.gaze.begin(), sight_.gaze.end(), filter.begin(),
-                 [&](float m) { return std::pow(m, exponent); });
-  filter_.add(filter, roles);
 }
 
 void Transparency::add_mask(const rl::Decision& decision) {

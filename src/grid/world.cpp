@@ -7,9 +7,8 @@ namespace wordgaze::grid {
 void World::clear(int width, int height) {
   grid.clear(width, height);
   objects.clear();
-  objects.push_back({});
-  objects.push_back({.type = Type::wall, .color = Color::grey});
-  sight_blockers = only(kWall);
+  add(Type::empty, Color::red);
+  add(Type::wall, Color::grey);
   agent = kNowhere;
   direction = Direction::right;
   carried = kNothing;
@@ -23,7 +22,7 @@ ObjectId World::add(Type type, Color color, DoorState state) {
   }
   const auto id = static_cast<ObjectId>(objects.size());
   objects.push_back({.type = type, .color = color, .state = state});
-  if (blocks_sight(objects.back())) sight_blockers |= only(id);
+  looks[id] = look_of(objects[id]);
   return id;
 }
 
@@ -34,11 +33,12 @@ void World::put(ObjectId id, Position p) {
 
 void World::set_door(ObjectId id, DoorState state) {
   objects[id].state = state;
-  if (state == DoorState::open) {
-    sight_blockers &= ~only(id);
-  } else {
-    sight_blockers |= only(id);
-  }
+  looks[id] = look_of(objects[id]);
+}
+
+void World::paint(ObjectId id, Color color) {
+  objects[id].color = color;
+  looks[id] = look_of(objects[id]);
 }
 
 }  // namespace wordgaze::grid

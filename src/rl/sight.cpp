@@ -5,7 +5,8 @@ namespace wordgaze::rl {
 void look(const Agent& agent, const Actor& actor, int lane, const env::Environment& environment,
           Sight& sight) {
   environment.observe(sight.image);
-  for (auto* values : {&sight.weights, &sight.mask, &sight.maps, &sight.gaze}) values->clear();
+  for (auto* values : {&sight.weights, &sight.mask, &sight.maps, &sight.gaze, &sight.filter})
+    values->clear();
   if (!agent.config.attention) return;
   const auto length = environment.sentence().length;
   const auto& attention = actor.cache().attention;
@@ -19,6 +20,7 @@ void look(const Agent& agent, const Actor& actor, int lane, const env::Environme
   }
   for (Index c = 0; c < grid::kViewCells; ++c) {
     sight.gaze.push_back(attention.gaze(kind(c), lane));
+    sight.filter.push_back(attention.scale(kind(c), lane));
   }
 }
 

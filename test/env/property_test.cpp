@@ -40,7 +40,7 @@ void expect_sound(const Environment& env) {
       ASSERT_EQ(count, 1);
       ASSERT_TRUE(world.stands(id));
     }
-    ASSERT_EQ((world.sight_blockers & grid::only(id)) != 0, blocks_sight(world.object(id)));
+    ASSERT_EQ(world.looks[id], look_of(world.object(id)));
   }
   if (world.carried != kNothing) {
     ASSERT_TRUE(can_be_carried(world.object(world.carried)));

@@ -67,10 +67,10 @@ TEST(Step, OpensAndClosesADoor) {
   const ObjectId door = world.grid[world.front()];
   step(world, Action::toggle);
   EXPECT_EQ(world.object(door).state, DoorState::open);
-  EXPECT_EQ(world.sight_blockers & only(door), 0u);
+  EXPECT_EQ(world.looks[door] & kBlocksSight, 0);
   step(world, Action::toggle);
   EXPECT_EQ(world.object(door).state, DoorState::closed);
-  EXPECT_NE(world.sight_blockers & only(door), 0u);
+  EXPECT_NE(world.looks[door] & kBlocksSight, 0);
 }
 
 TEST(Step, UnlocksADoorWithTheKeyOfItsColorAndKeepsTheKey) {

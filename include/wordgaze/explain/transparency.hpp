@@ -44,7 +44,6 @@ class Transparency final : public rl::Witness {
  private:
   void add_map(const rl::Decision& decision, std::span<const float> map, const Roles& roles,
                MapReport& report);
-  void add_filter(const Roles& roles);
   void add_mask(const rl::Decision& decision);
 
   WhatIf what_if_;

@@ -2,15 +2,16 @@
 #include <vector>
 
 #include "wordgaze/grid/grid.hpp"
+#include "wordgaze/grid/look.hpp"
 
 namespace wordgaze::grid {
 
 /// Everything there is: the grid, its objects and the agent. A value: a copy is a snapshot.
 struct World {
   Grid grid;
-  std::vector<Object> objects;     ///< by ObjectId; the first two are "nothing" and the wall
-  ObjectSet sight_blockers = 0;    ///< the objects that hide what lies behind them
-  bool see_through_walls = false;  ///< the agent sees all of its view
+  std::vector<Object> objects;            ///< by ObjectId; the first two are "nothing" and the wall
+  std::array<Look, kMaxObjects> looks{};  ///< by ObjectId; kept up to date by add, paint, set_door
+  bool see_through_walls = false;         ///< the agent sees all of its view
   Position agent = kNowhere;
   Direction direction = Direction::right;
   ObjectId carried = kNothing;
@@ -25,6 +26,7 @@ struct World {
   /// Puts an object into a cell, over what may be there.
   void put(ObjectId id, Position p);
   void set_door(ObjectId id, DoorState state);
+  void paint(ObjectId id, Color color);
 
   const Object& object(ObjectId id) const { return objects[id]; }
   const Object& object_at(Position p) const { return objects[grid[p]]; }

@@ -14,6 +14,7 @@ struct Sight {
   std::vector<float> mask;     ///< alpha, one a word; ones without the Task Attention Module
   std::vector<float> maps;     ///< A, 49 a word, row by row
   std::vector<float> gaze;     ///< M, 49
+  std::vector<float> filter;   ///< s(M), 49: what the view is multiplied with
 };
 
 /// Overwrites `sight` with the last decision of a lane.
