@@ -34,6 +34,7 @@ class Network(nn.Module):
     def __init__(self, c):
         super().__init__()
         self.entropy_base, self.exponent = c["entropy_base"], c["gaze_exponent"]
+        self.floor = c["gaze_floor"]
         relu, channels = nn.LeakyReLU(c["encoder_leak"]), c["channels"]
         if c.get("encoder", "1x1") == "3x3":
             self.encoder = nn.Sequential(nn.Conv2d(FEATURES, channels, 3, padding=1), relu,
@@ -68,6 +69,7 @@ class Network(nn.Module):
         weights = (-entropy).masked_fill(~is_word, -math.inf).softmax(1)
         gaze = (weights[:, None] @ maps)[:, 0]
         scale = (gaze / (gaze.max(1, keepdim=True).values + 1e-6)) ** self.exponent
+        scale = self.floor + (1 - self.floor) * scale
         return (view * scale[:, None]).flatten(1)
 
     def forward(self, images, mission_of, text, keep, memory):
@@ -219,8 +221,16 @@ def check(path):
     net = Network(c)
     by_channel = p["memory.input_weight"].view(-1, CELLS, c["channels"]).transpose(1, 2).flatten(1)
     candidate = F.pad(p["text.candidate_bias"], (2 * c["text_size"], 0))
-    values = {"encoder.0.weight": p["visual.weight"][:, :, None, None],
-              "encoder.0.bias": p["visual.bias"], "words.weight": p["words"].T,
+    if c["encoder"] == "3x3":  # a block of columns a tap
+        values = {f"encoder.{2 * k}.{leaf}": p[f"patches.{layer}.{leaf}"]
+                  for k, layer in enumerate(("first", "second")) for leaf in ("weight", "bias")}
+        for k in (0, 2):
+            taps = values[f"encoder.{k}.weight"].view(c["channels"], 3, 3, -1)
+            values[f"encoder.{k}.weight"] = taps.permute(0, 3, 1, 2)
+    else:
+        values = {"encoder.0.weight": p["visual.weight"][:, :, None, None],
+                  "encoder.0.bias": p["visual.bias"]}
+    values |= {"words.weight": p["words"].T,
               "query.weight": p["attention.query"], "key.weight": p["attention.key"],
               "memory.weight_ih": by_channel, "memory.weight_hh": p["memory.hidden_weight"],
               "memory.bias_ih": p["memory.bias"], "memory.bias_hh": 0 * p["memory.bias"],
