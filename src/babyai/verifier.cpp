@@ -24,11 +24,9 @@ void Verifier::begin(const World& world, const Instruction& instruction, DoneMod
 
 void Verifier::refresh(const World& world) {
   seen_ = 0;
-  seen_at_.resize(world.objects.size());
   for (std::size_t k = grid::kWall + 1; k < world.objects.size(); ++k) {
-    if (!world.stands(static_cast<ObjectId>(k))) continue;
-    seen_ |= grid::only(static_cast<ObjectId>(k));
-    seen_at_[k] = world.objects[k].position;
+    const auto id = static_cast<ObjectId>(k);
+    if (world.stands(id)) seen_ |= grid::only(id);
   }
 }
 
@@ -163,7 +161,7 @@ Status Verifier::check(const World& world, const Task& task, Action action, int 
 bool Verifier::stood_at(const World& world, const Meaning& meaning, const Description& description,
                         ObjectSet meant, Position p) const {
   for (ObjectSet left = meant & seen_; left != 0; left &= left - 1) {
-    if (seen_at_[std::countr_zero(left)] == p) return true;
+    if (world.last_place(static_cast<ObjectId>(std::countr_zero(left))) == p) return true;
   }
   return (meant & grid::only(grid::kWall)) != 0 && world.grid.contains(p) &&
          world.grid[p] == grid::kWall &&

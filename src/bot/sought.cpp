@@ -34,7 +34,7 @@ std::vector<Standing> standing(const World& world, const babyai::Verifier& verif
                                const babyai::Description& description) {
   std::vector<Standing> all;
   for_each_object(meant, [&](ObjectId id) {
-    if (const auto place = verifier.last_seen(id)) all.push_back({*place, id});
+    if (const auto place = verifier.last_seen(world, id)) all.push_back({*place, id});
   });
   if ((meant & grid::only(grid::kWall)) != 0) {
     for (int x = 0; x < world.grid.width(); ++x) {

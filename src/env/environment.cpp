@@ -47,7 +47,7 @@ bool Environment::start(core::Rng rng) {
   thread_local grid::World world;
   thread_local babyai::Task task;
   if (!babyai::generate(*spec_, rng, world, task)) return false;
-  std::swap(world_, world);
+  world_ = world;  // copied, so that it takes no more memory than it needs
   task_ = task;
   rng_ = rng;
   seeded_ = true;
@@ -55,7 +55,8 @@ bool Environment::start(core::Rng rng) {
   if (task_.start_carrying != grid::kNothing) {
     // As the reference, which does not tell the object that it moved.
     world_.carried = task_.start_carrying;
-    world_.grid[world_.object(world_.carried).position] = grid::kNothing;
+    world_.carried_from = world_.object(world_.carried).position;
+    world_.grid[world_.carried_from] = grid::kNothing;
   }
   return true;
 }

@@ -87,7 +87,7 @@ template <class Archive, class Env>
 void Environment::archive(Archive& archive, Env& env) {
   auto& w = env.world_;
   archive(env.rng_, env.seeded_, env.task_, w.objects, w.looks, w.see_through_walls, w.agent,
-          w.direction, w.carried, w.step_count, w.room_size);
+          w.direction, w.carried, w.carried_from, w.step_count, w.room_size);
   w.grid.archive(archive);
   env.verifier_.archive(archive);
 }

@@ -187,10 +187,10 @@ bool RoomGrid::all_connected() const {
 }
 
 bool RoomGrid::all_reachable() const {
-  ObjectSet doors = 0, standing = 0;
+  ObjectSet passable = only(kNothing), standing = 0;
   for (std::size_t k = kWall + 1; k < world.objects.size(); ++k) {
     const auto id = static_cast<ObjectId>(k);
-    if (world.object(id).type == Type::door) doors |= only(id);
+    if (world.object(id).type == Type::door) passable |= only(id);
     if (world.stands(id)) standing |= only(id);
   }
 
@@ -198,22 +198,25 @@ bool RoomGrid::all_reachable() const {
   thread_local Grid left;
   thread_local std::vector<ObjectId*> reached;
   left = world.grid;
-  reached.clear();
-  ObjectSet found = 0;
-  const auto reach = [&](ObjectId* cell) {
-    found |= only(*cell);
-    *cell = kWall;
-    reached.push_back(cell);
+  reached.resize(static_cast<std::size_t>(left.width() * left.height()) + 1);
+  ObjectSet found = only(world.grid[world.agent]);
+  ObjectId** end = reached.data();
+  *end++ = left.pointer(world.agent);
+  *left.pointer(world.agent) = kWall;
+  // Without branches, as nobody could predict them: each neighbor is written, few are kept.
+  const auto look_at = [&](ObjectId* cell) {
+    const ObjectId id = *cell;
+    const bool passes = (passable & only(id)) != 0;
+    found |= only(id);
+    *cell = passes ? kWall : id;
+    *end = cell;
+    end += passes;
   };
   const std::ptrdiff_t row = left.stride();
-  reach(left.pointer(world.agent));
-  while (!reached.empty() && (standing & ~found) != 0) {
-    ObjectId* cell = reached.back();
-    reached.pop_back();
+  while (end != reached.data() && (standing & ~found) != 0) {
+    ObjectId* cell = *--end;
     for (std::ptrdiff_t step : {std::ptrdiff_t{1}, row, std::ptrdiff_t{-1}, -row}) {
-      const ObjectId id = cell[step];
-      found |= only(id);
-      if (id == kNothing || (doors & only(id)) != 0) reach(cell + step);
+      look_at(cell + step);
     }
   }
   return (standing & ~found) == 0;

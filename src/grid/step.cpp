@@ -7,6 +7,7 @@ void pick_up(World& world, Position front) {
   const ObjectId id = world.grid[front];
   if (world.carried != kNothing || !can_be_carried(world.object(id))) return;
   world.carried = id;
+  world.carried_from = front;
   world.objects[id].position = kNowhere;
   world.grid[front] = kNothing;
 }

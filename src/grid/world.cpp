@@ -12,6 +12,7 @@ void World::clear(int width, int height) {
   agent = kNowhere;
   direction = Direction::right;
   carried = kNothing;
+  carried_from = kNowhere;
   step_count = 0;
   room_size = 0;
 }

@@ -2,7 +2,6 @@
 #include <array>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "wordgaze/babyai/level.hpp"
 #include "wordgaze/babyai/task.hpp"
@@ -39,19 +38,19 @@ class Verifier {
   std::span<const std::uint8_t> matched() const { return {matched_.data(), clauses_}; }
 
   /// Where an object stood at the last look; none if it stood nowhere.
-  std::optional<grid::Position> last_seen(grid::ObjectId id) const {
+  std::optional<grid::Position> last_seen(const grid::World& world, grid::ObjectId id) const {
     if ((seen_ & grid::only(id)) == 0) return std::nullopt;
-    return seen_at_[id];
+    return world.last_place(id);
   }
 
   /// Walks all members, to store or restore them.
   template <class Archive>
   void archive(Archive& archive) {
-    archive(mode_, clauses_, completed_, declarable_, matched_, held_, seen_, seen_at_);
+    archive(mode_, clauses_, completed_, declarable_, matched_, held_, seen_);
   }
   template <class Archive>
   void archive(Archive& archive) const {
-    archive(mode_, clauses_, completed_, declarable_, matched_, held_, seen_, seen_at_);
+    archive(mode_, clauses_, completed_, declarable_, matched_, held_, seen_);
   }
 
  private:
@@ -73,8 +72,9 @@ class Verifier {
   std::uint8_t clauses_ = 0;
   std::array<std::uint8_t, kMax> completed_{}, declarable_{}, matched_{};
   std::array<grid::ObjectId, kMax> held_{};  // what was carried when the clause was last checked
-  grid::ObjectSet seen_ = 0;                 // the objects that stood in the grid ...
-  std::vector<grid::Position> seen_at_;      // ... and where
+  // The objects that stood in the grid at the last look. Until the next one, which is at a drop,
+  // only one of them can be picked up: the world remembers where from.
+  grid::ObjectSet seen_ = 0;
 };
 
 }  // namespace wordgaze::babyai

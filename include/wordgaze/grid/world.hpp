@@ -15,6 +15,7 @@ struct World {
   Position agent = kNowhere;
   Direction direction = Direction::right;
   ObjectId carried = kNothing;
+  Position carried_from = kNowhere;  ///< where the carried object stood
   int step_count = 0;
   int room_size = 0;  ///< cells along a side of a room, walls included; 0: the grid is one room
 
@@ -31,6 +32,10 @@ struct World {
   const Object& object(ObjectId id) const { return objects[id]; }
   const Object& object_at(Position p) const { return objects[grid[p]]; }
   Position front() const { return agent + forward(direction); }
+  /// Where an object stood last, also while it is carried.
+  Position last_place(ObjectId id) const {
+    return id == carried ? carried_from : objects[id].position;
+  }
   /// Whether the object stands in the grid now: not carried, not in a box, not gone.
   bool stands(ObjectId id) const {
     return id > kWall && objects[id].position != kNowhere && grid[objects[id].position] == id;
