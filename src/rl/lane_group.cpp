@@ -159,6 +159,8 @@ void LaneGroup::keep_cut(int b, Index column) {
 void LaneGroup::value_cuts(const Agent::Params& params, const Agent::Tables& tables,
                            Rollout& rollout) {
   const auto batch = static_cast<std::size_t>(cut_frames_.shape.batch);
+  // Columns that are left over run along; what they held was of missions that are forgotten.
+  std::fill(cut_frames_.mission_of.begin(), cut_frames_.mission_of.end(), 0);
   for (std::size_t from = 0; from < cut_count_; from += batch) {
     const std::size_t size = std::min(batch, cut_count_ - from);
     for (std::size_t i = 0; i < size; ++i) {

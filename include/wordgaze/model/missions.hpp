@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <vector>
 
@@ -26,7 +27,10 @@ struct Missions {
     longest = std::max(longest, static_cast<int>(sentence.length));
     return size() - 1;
   }
-  const babyai::Sentence& operator[](int i) const { return sentences[static_cast<std::size_t>(i)]; }
+  const babyai::Sentence& operator[](int i) const {
+    assert(i >= 0 && i < size());
+    return sentences[static_cast<std::size_t>(i)];
+  }
 };
 
 }  // namespace wordgaze::model
