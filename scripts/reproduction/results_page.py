@@ -1,0 +1,318 @@
+#!/usr/bin/env python3
+"""Writes docs/results.md and its plots from docs/data/results.json: what scripts/reproduce measured.
+Measures nothing itself. Another folder than docs may be given."""
+import json
+import pathlib
+import statistics
+import sys
+
+if __name__ == "__main__":
+    sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "performance"))
+
+from curves import chart, frame_ticks
+from measure import ROOT
+from page import table
+
+HEAD = """# Results
+
+<!-- Written by scripts/reproduction/results_page.py from docs/data/results.json; do not edit. -->
+
+Success in percent and reward of agents in worlds not trained on: the mean over the seeds and, in brackets, its 95 %
+bootstrap interval. For success it is over seeds and episodes (2,000 draws of the seeds with replacement, and of each rate
+anew with the variance of its episodes), for other figures over seeds alone. IQM is the interquartile mean: the mean of the
+seeds without the lowest and the highest quarter. *Sampled* draws actions from the policy, *greedy* takes the likeliest.
+The metrics of every run, thinned to 200 rows, are in `data/results/`, all figures in `data/results.json`."""
+
+
+def percent(x):
+    return f"{100 * x:.1f}"
+
+
+def success(spread):
+    low, high = spread["ci95"]
+    return f"{percent(spread['mean'])} [{percent(low)}, {percent(high)}]"
+
+
+def share(spread):
+    return "-" if spread is None else f"{spread['mean']:.3f}"
+
+
+def of_policy(settings, policy):
+    return [s for s in settings or [] if s["policy"] == policy]
+
+
+def both(settings, figure=success):
+    """Sampled and greedy, of the first setting of each."""
+    return [figure(found[0]["success"]) if (found := of_policy(settings, policy)) else "-"
+            for policy in ("sampled", "greedy")]
+
+
+def millions(row, level):
+    """Median of the frames until training success is as high, and of how many seeds."""
+    reached = row.get("reached", {}).get(level, [])
+    frames = [r[0] for r in reached if r]
+    if not frames:
+        return f"- (0 of {len(reached)})"
+    some = "" if len(frames) == len(reached) else f" ({len(frames)} of {len(reached)})"
+    return f"{statistics.median(frames) / 1e6:.2f}M{some}"
+
+
+class Results:
+    def __init__(self, data):
+        self.data, self.rows = data, data["rows"]
+
+    def part(self, name):
+        return [row for row in self.rows if row["part"] == name]
+
+    def evaluation(self, row, kind, policy=None):
+        found = next((r for r in self.rows if r["name"] == row), {"evaluations": {}})
+        settings = found["evaluations"].get(kind, [])
+        return of_policy(settings, policy) if policy else settings
+
+
+def targets(results):
+    """[target, measured, met], of issue 5, as far as there are data."""
+    lines = []
+
+    def add(what, value, bound, show=percent):
+        if value is not None:
+            lines.append([what, show(value), "met" if value >= bound else "**not met**"])
+
+    for policy in ("sampled", "greedy"):
+        grid = results.evaluation("single", "grid", policy)
+        home = next((s for s in grid if (s["room"], s["objects"]) == (8, 4)), None)
+        if home:
+            add(f"attention, 8x8 with 4 objects, {policy}: success 99 %", home["success"]["mean"], 0.99)
+            add(f"attention, 8x8 with 4 objects, {policy}: reward 0.88", home["reward"]["mean"], 0.88,
+                lambda x: f"{x:.3f}")
+            add(f"attention, every setting, {policy}: success 95 %; the lowest",
+                min(s["success"]["mean"] for s in grid), 0.95)
+            add(f"attention, every setting and seed, {policy}: success 90 %; the lowest",
+                min(min(s["success"]["seeds"]) for s in grid), 0.90)
+    for policy in ("sampled", "greedy"):
+        for own in results.evaluation("structured", "own", policy)[:1]:
+            add(f"two clauses, {policy}: success 95 %", own["success"]["mean"], 0.95)
+            if "by_join" in own:
+                add(f"two clauses, {policy}: 95 % for each join; the lowest",
+                    min(own["by_join"].values()), 0.95)
+        for own in results.evaluation("three", "three", policy)[:1]:
+            add(f"three clauses, {policy}: success 85 %", own["success"]["mean"], 0.85)
+    for row in results.part("babyai"):
+        best = [s["success"]["mean"] for s in row["evaluations"].get("own", [])]
+        add(f"{row['name']}, better of both policies: success 99 %", max(best, default=None), 0.99)
+    for name in ("single", "structured"):
+        for gaze in results.evaluation(name, "gaze"):
+            figures = gaze["transparency"]
+            what = {"single": "one clause", "structured": "two clauses"}[name]
+            pointing, mask = figures["gaze"]["pointing"], figures["mask"]["f1"]
+            deleted, others = figures["gaze"]["deletion"], figures["gaze"]["deletion_others"]
+            add(f"{what}: M points at a target, 95 %", pointing and pointing["mean"], 0.95)
+            add(f"{what}: F1 of the mask 0.98", mask and mask["mean"], 0.98, lambda x: f"{x:.3f}")
+            if deleted and others and others["mean"]:
+                add(f"{what}: deleting the brightest cell moves the policy 5 times as far as another",
+                    deleted["mean"] / others["mean"], 5, lambda x: f"{x:.1f} times")
+    return lines
+
+
+def grid_tables(results):
+    """A table a row of the grid, and the plot's panels."""
+    for row in results.part("grounding"):
+        grid = row["evaluations"].get("grid")
+        if not grid or row["set"]:
+            continue
+        lines = []
+        for sampled, greedy in zip(of_policy(grid, "sampled"), of_policy(grid, "greedy")):
+            line = [f"{sampled['room']}x{sampled['room']}, {sampled['objects']}"]
+            for s in (sampled, greedy):
+                line += [success(s["success"]), percent(s["success"]["iqm"]),
+                         percent(min(s["success"]["seeds"])), f"{s['reward']['mean']:.3f}"]
+            lines.append(line)
+        yield f"### {row['about'].capitalize()}: `{row['name']}`"
+        yield table(["room, objects", "sampled", "IQM", "lowest seed", "reward",
+                     "greedy", "IQM", "lowest seed", "reward"], lines)
+
+
+ABLATED_AT = [(8, 4), (8, 12), (10, 8), (12, 4), (12, 12)]
+
+
+def ablation_table(results):
+    lines = []
+    for row in results.part("grounding"):
+        grid = row["evaluations"].get("grid")
+        if not grid or row["name"] == "baseline":
+            continue
+        for policy in ("sampled", "greedy"):
+            settings = of_policy(grid, policy)
+            at = {(s["room"], s["objects"]): s["success"] for s in settings}
+            sampled = policy == "sampled"
+            lines.append([row["about"] if sampled else "", policy,
+                          *(success(at[place]) if place in at else "-" for place in ABLATED_AT),
+                          percent(statistics.fmean(s["success"]["mean"] for s in settings)),
+                          percent(statistics.fmean(s["success"]["iqm"] for s in settings)),
+                          millions(row, "0.95") if sampled else ""])
+    return table(["variant", "policy", *(f"{n}x{n}, {k}" for n, k in ABLATED_AT), "all settings",
+                  "IQM of all", "95 % after"], lines) if lines else ""
+
+
+def task_table(results):
+    lines = []
+    for row in results.part("task"):
+        own = row["evaluations"].get("own")
+        if not own:
+            continue
+        sampled = of_policy(own, "sampled")[0]
+        joins = sampled.get("by_join", {})
+        lines.append([row["name"], row["about"], *both(own), percent(sampled["success"]["iqm"]),
+                      percent(min(sampled["success"]["seeds"])),
+                      *(percent(joins[j]) if j in joins else "-" for j in ("and", "then", "after")),
+                      millions(row, "0.9"), millions(row, "0.95")])
+    return table(["row", "variant", "sampled", "greedy", "IQM", "lowest seed", "and", "then", "after",
+                  "90 % after", "95 % after"], lines) if lines else ""
+
+
+def beyond_table(results):
+    lines = []
+    for row in results.rows:
+        for kind, settings in row["evaluations"].items():
+            if kind in ("three", "four", "large"):
+                sampled = of_policy(settings, "sampled")[0]
+                joins = sampled.get("by_join")
+                hardest = min(joins, key=joins.get) if joins else None
+                lines.append([settings[0]["env"], row["name"], row["about"], *both(settings),
+                              percent(sampled["success"]["iqm"]),
+                              f"{hardest}: {percent(joins[hardest])}" if joins else ""])
+    return table(["environment", "row", "agent", "sampled", "greedy", "IQM", "hardest joins, sampled"],
+                 sorted(lines)) if lines else ""
+
+
+def babyai_table(results):
+    lines = []
+    for row in results.part("babyai"):
+        reached = [r for r in row["reached"]["0.99"] if r]
+        episodes = f"{statistics.median(r[1] for r in reached):,.0f}" if reached else "-"
+        lines.append([row["name"], f"{row['frames'] / 1e6:.1f}M", *both(row["evaluations"].get("own")),
+                      millions(row, "0.99"), episodes])
+    return table(["level", "trained for", "sampled", "greedy", "99 % after", "that is, episodes, about"],
+                 lines) if lines else ""
+
+
+def transparency_tables(results):
+    maps, words = [], []
+    for row in results.rows:
+        for gaze in row["evaluations"].get("gaze", []):
+            figures = gaze["transparency"]
+            for kind, name in (("gaze", "M"), ("gradient", "gradient"),
+                               ("gradient_times_input", "gradient x input")):
+                m = figures[kind]
+                if m["pointing"] is not None:
+                    maps.append([row["name"], name, share(m["pointing"]), share(m["chance"]),
+                                 *(share(v) for v in m["mass"].values()), share(m["deletion"]),
+                                 share(m["deletion_others"]), share(m["insertion"]),
+                                 share(m["insertion_others"])])
+            if figures["words"]["content_weight"]:
+                words.append([row["name"], *(share(v) for v in figures["words"].values()),
+                              *(share(v) for v in figures["mask"].values())])
+    if maps:
+        yield table(["row", "map", "points at a target", "chance", "mass: target", "distractors",
+                     "empty", "walls", "deletion: brightest", "another", "insertion: brightest",
+                     "another"], maps)
+    if words:
+        yield table(["row", "word points at its color", "its type", "weight: content words",
+                     "function words", "mask F1", "steps after c_t changes"], words)
+
+
+def grid_chart(results):
+    rows = [r for r in results.part("grounding") if not r["set"] and "grid" in r["evaluations"]]
+    names = [f"{r['about']}, {policy}" for r in rows for policy in ("sampled", "greedy")]
+    settings = [of_policy(r["evaluations"]["grid"], p) for r in rows for p in ("sampled", "greedy")]
+    panels = []
+    for room in sorted({s["room"] for line in settings for s in line}):
+        series = [[[s["objects"], s["success"]["mean"], *s["success"]["ci95"]]
+                   for s in line if s["room"] == room] for line in settings]
+        panels.append((f"{room}x{room}", series, [(p[0], str(p[0])) for p in series[0]]))
+    return chart(panels, names, "objects") if panels else ""
+
+
+def learning_chart(rows):
+    rows = [r for r in rows if r.get("curve")]
+    if not rows:
+        return ""
+    ticks = frame_ticks(max(r["frames"] for r in rows))
+    return chart([("training success", [r["curve"][::2] for r in rows], ticks)],
+                 [(r["about"] or r["name"]).replace("`", "") for r in rows], "frames")
+
+
+def commands(results):
+    lines = ["One seed of each row; `--threads` is left out. Weights of a first phase are those of the same seed.", ""]
+    for row in results.rows:
+        what = f"the agents of `{row['of']}`" if row["of"] else \
+            ", ".join(filter(None, [row["config"] and f"`configs/{row['config']}`",
+                                    row["set"] and f"`{row['set']}`",
+                                    row["init"] and f"from `{row['init']}`"]))
+        lines += [f"* **{row['name']}**: {what}; seeds {', '.join(map(str, row['seeds']))}; "
+                  f"{row['seconds'] / 3600:.2f} h", "", *(f"      {c}" for c in row["commands"]), ""]
+    return "\n".join(lines).rstrip()
+
+
+def write_page(folder):
+    results = Results(json.loads((folder / "data/results.json").read_text()))
+    images, sections = folder / "images/results", [HEAD]
+
+    def plot(name, drawing, title):
+        if drawing:
+            images.mkdir(parents=True, exist_ok=True)
+            (images / f"{name}.svg").write_text(drawing)
+            sections.append(f"![{title}](images/results/{name}.svg)")
+
+    def section(title, *blocks):
+        blocks = [block for block in blocks if block]
+        if blocks:
+            sections.extend([f"## {title}", *blocks])
+
+    data = results.data
+    machine = data["machine"]
+    hours = sum(row["seconds"] for row in results.rows) / 3600
+    smaller = ", ".join(f"{key} at most {value:,}" for key, value in data["scale"].items())
+    sections.append(
+        f"Made by `scripts/reproduce` in {hours:.1f} hours of one program (threads: {data['threads']}, "
+        f"programs at a time: {data['jobs']}) on {machine['cores']} cores of {machine['processor']}; "
+        f"commit {machine['commit']}, {machine['compiler']}, `{machine['flags']}`."
+        + (f" **Smaller than the full run: {smaller}.**" if smaller else ""))
+    missing = [f"{r['name']} ({len(r['trained'])} of {len(r['seeds'])} seeds)" for r in results.rows
+               if not r["of"] and len(r["trained"]) < len(r["seeds"])]
+    if missing:
+        sections.append(f"Not finished: {', '.join(missing)}.")
+    reached = targets(results)
+    section("Targets", reached and table(["target", "measured", ""], reached))
+    section("Grounding", "One clause, trained in 8x8 with four objects only (`Wordgaze-One-N8-K4-v0`).",
+            *grid_tables(results))
+    plot("grid", grid_chart(results), "Success by room and objects; bands: 95 % intervals")
+    ablations = ablation_table(results)
+    if ablations:
+        sections.extend(["### Ablations", ablations])
+    plot("grounding", learning_chart([r for r in results.part("grounding") if not r["set"]]),
+         "Learning curves; bands: lowest and highest seed")
+    section("Two clauses", results.part("task") and
+            "10x10 with four objects, from the weights of the first phase with the same seed. Frames are "
+            "those of this phase, until the success of training episodes is as high: the median of the "
+            "seeds that reach it.", task_table(results))
+    plot("task", learning_chart([r for r in results.part("task")
+                                 if r["name"].startswith("structured")]),
+         "Learning curves; bands: lowest and highest seed")
+    plot("task-ablations", learning_chart([r for r in results.part("task") if
+                                           not r["name"].startswith("structured-")]),
+         "Learning curves of the ablations; bands: lowest and highest seed")
+    section("Beyond: more clauses, larger rooms", beyond_table(results))
+    section("Levels of BabyAI from scratch", results.part("babyai") and
+            "Without done actions and without a curriculum.", babyai_table(results))
+    plot("babyai", learning_chart(results.part("babyai")),
+         "Learning curves of the levels; bands: lowest and highest seed")
+    section("Transparency", "[metrics.md](metrics.md) defines the figures; of decisions with a target in "
+            "view, one cell for deletion and insertion." if any(
+                "gaze" in r["evaluations"] for r in results.rows) else "", *transparency_tables(results))
+    section("Commands and configurations", commands(results))
+    (folder / "results.md").write_text("\n\n".join(sections) + "\n")
+
+
+if __name__ == "__main__":
+    write_page(pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "docs")
