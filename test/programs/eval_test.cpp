@@ -56,6 +56,22 @@ TEST_F(Eval, ReportsEverySetting) {
   }
 }
 
+TEST(Models, FindTheirTargetsAtOnce) {
+  const Shell run;
+  const auto rate = [&](const std::string& model) {
+    const auto evaluated = run("eval --checkpoint '" WORDGAZE_SOURCE_DIR "/models/" + model +
+                               ".safetensors' --episodes 200 --json e.json");
+    EXPECT_TRUE(succeeded(evaluated));
+    double least = 1;
+    for (const auto& setting : nlohmann::json::parse(run.read("e.json")).at("settings")) {
+      least = std::min(least, setting.at("success_rate").get<double>());
+    }
+    return least;
+  };
+  EXPECT_GE(rate("single-attention"), 0.97);
+  EXPECT_GE(rate("structured"), 0.95);
+}
+
 TEST_F(Eval, RepeatsItselfForAnyNumberOfThreads) {
   ASSERT_TRUE(succeeded(run("eval --checkpoint ckpt --episodes 50 --threads 1 --json 1.json")));
   ASSERT_TRUE(succeeded(run("eval --checkpoint ckpt --episodes 50 --threads 2 --json 2.json")));
