@@ -1,3 +1,3 @@
-#include "wordgaze/model/agent.hpp"
+#include "wordgaze/model/agent_impl.hpp"
 
 template struct wordgaze::model::Agent<float>;

@@ -1,4 +1,4 @@
-#include "wordgaze/model/agent.hpp"
+#include "wordgaze/model/agent_impl.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "wordgaze/model/agent_impl.hpp"
+
 namespace wordgaze::model {
 namespace {
 
