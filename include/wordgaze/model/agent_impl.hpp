@@ -1,8 +1,8 @@
 #pragma once
 #include "wordgaze/model/agent.hpp"
 
-/// The definitions of Agent's members, for the one translation unit that instantiates it: Agent<float>
-/// is in the library (src/model/agent.cpp), so its users need agent.hpp alone.
+/// The definitions of Agent's members, for the one translation unit that instantiates it:
+/// Agent<float> is in the library (src/model/agent.cpp), so its users need agent.hpp alone.
 namespace wordgaze::model {
 
 template <std::floating_point S>
