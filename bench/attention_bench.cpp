@@ -3,6 +3,7 @@
 
 #include "wordgaze/env/environment.hpp"
 #include "wordgaze/model/text_visual_attention.hpp"
+#include "wordgaze/rl/actor.hpp"
 #include "wordgaze/rl/alphabet.hpp"
 
 namespace {
@@ -10,8 +11,8 @@ namespace {
 using namespace wordgaze;
 using Layer = model::TextVisualAttention<float>;
 
-constexpr Index kFrames = 640, kKeySize = 16;
-constexpr float kSharpness = 0.257f, kExponent = 2;
+constexpr Index kFrames = 640, kKeySize = 16, kChannels = 16;
+constexpr float kSharpness = 0.257f, kExponent = 2, kFloor = 0.1f;
 
 struct Attention : benchmark::Fixture {
   model::CellMatrix cells{grid::kViewCells, kFrames};
@@ -23,7 +24,9 @@ struct Attention : benchmark::Fixture {
 
   Attention() {
     env::Environment environment("Wordgaze-One-N8-K4-v0");
-    const auto alphabet = rl::alphabet_of(environment.spec());
+    const rl::Agent agent{model::Config{}, rl::alphabet_of(environment.spec())};
+    const auto& alphabet = agent.alphabet;
+    const Index kinds = agent.kinds();
     std::array<std::uint8_t, grid::kImageBytes> image;
     for (Index n = 0; n < kFrames; ++n) {
       environment.reset(n);
@@ -32,17 +35,19 @@ struct Attention : benchmark::Fixture {
           image, std::span<std::uint8_t, grid::kViewCells>(cells.col(n).data(), grid::kViewCells));
     }
     missions.index_of(environment.sentence());
-    tables.resize(kKeySize, babyai::kVocabularySize, alphabet.size());
+    tables.resize(kKeySize, kChannels, babyai::kVocabularySize, kinds);
     tables.scores.setRandom();
     dtables = tables;
-    cache.resize(alphabet.size(), kFrames, missions.longest);
+    cache.resize(kinds, kFrames, missions.longest);
     alpha.setOnes(missions.longest, kFrames);
     dalpha = alpha;
-    dscale = Matrix<float>::Random(alphabet.size(), kFrames);
+    dscale = Matrix<float>::Random(kinds, kFrames);
   }
   void forward() {
-    Layer::forward_words(tables, cells, missions, mission_of, kSharpness, cache);
-    Layer::forward_gaze(missions, mission_of, alpha, kExponent, cache);
+    Layer::count_codes(cells, cache);
+    Layer::forward_words([&](Index, Index, Index word) { return tables.scores.col(word); },
+                         missions, mission_of, kSharpness, cache);
+    Layer::forward_gaze(missions, mission_of, alpha, kExponent, kFloor, cache);
   }
 };
 
@@ -54,8 +59,10 @@ BENCHMARK_F(Attention, forward)(benchmark::State& state) {
 BENCHMARK_F(Attention, backward)(benchmark::State& state) {
   forward();
   for (auto _ : state) {
-    Layer::backward_gaze(missions, mission_of, alpha, kExponent, dscale, cache, dalpha);
-    Layer::backward_words(missions, mission_of, alpha, kSharpness, cache, dtables.scores);
+    Layer::backward_gaze(missions, mission_of, alpha, kExponent, kFloor, dscale, cache, dalpha);
+    Layer::backward_words(
+        missions, mission_of, alpha, kSharpness, cache,
+        [&](Index, Index, Index word, const auto& dscore) { dtables.scores.col(word) += dscore; });
   }
   state.SetItemsProcessed(state.iterations() * kFrames);
 }
