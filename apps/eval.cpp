@@ -104,7 +104,8 @@ nlohmann::ordered_json record(const std::string& id, const rl::Evaluation& evalu
           {"hit", r.hits.seen > 0 ? nlohmann::ordered_json(r.hits.rate()) : nullptr},
           {"by_verb", to_json(r.breakdown.by_verb)},
           {"by_join", to_json(r.breakdown.by_join)},
-          {"by_clauses", to_json(r.breakdown.by_clauses)}};
+          {"by_clauses", to_json(r.breakdown.by_clauses)},
+          {"by_object", to_json(r.breakdown.by_object)}};
 }
 
 /// Where missions join clauses: success by the words that do.

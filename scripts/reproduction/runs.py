@@ -87,10 +87,7 @@ class Step:
 
 
 def frames_of(row):
-    """What the row trains for, from its overrides or its configuration."""
-    override = dict(item.split("=", 1) for item in row.set.split())
-    if "frames" in override:
-        return int(override["frames"])
+    """What the row trains for."""
     return tomllib.loads((ROOT / "configs" / row.config).read_text())["frames"]
 
 
@@ -109,11 +106,9 @@ def steps_of(row, seed, out, scale):
     agent = out / (row.of or row.name) / str(seed)
     steps = []
     if not row.of:
-        arguments = ["--config", f"configs/{row.config}"] if row.config else []
+        arguments = ["--config", f"configs/{row.config}"]
         frames, needs = frames_of(row), ()
         arguments += ["--out", relative(folder), "--seed", str(seed)]
-        if row.set:
-            arguments += ["--set", *row.set.split()]
         if scale.frames:
             frames = min(frames, scale.frames)
             arguments += ["--frames", str(frames)]

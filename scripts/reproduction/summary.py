@@ -6,6 +6,9 @@ import json
 import math
 import random
 import statistics
+import tomllib
+
+from measure import ROOT
 
 RESAMPLES = 2000
 LARGEST_LOG = 200  # rows of metrics kept of a run
@@ -72,7 +75,26 @@ def curve(logs):
     return lines
 
 
-def combined(reports):
+def held_out(row):
+    """The kinds of objects that the missions of a row's training never named."""
+    config = tomllib.loads((ROOT / "configs" / row.config).read_text())
+    kinds = config.get("curriculum", {}).get("held_out", "")
+    return {kind.strip() for kind in kinds.split(",") if kind.strip()}
+
+
+def by_kinds(records, kinds):
+    """Success on missions that name what was held out, on the others, and the ratio of both."""
+    def rate(record, wanted):
+        counts = [c for kind, c in record["by_object"].items() if (kind in kinds) == wanted]
+        episodes = sum(c["episodes"] for c in counts)
+        return sum(c["success_rate"] * c["episodes"] for c in counts) / episodes, episodes
+    unseen, seen = ([rate(r, wanted) for r in records] for wanted in (True, False))
+    return {"held_out": spread([r for r, _ in unseen], unseen[0][1]),
+            "seen": spread([r for r, _ in seen], seen[0][1]),
+            "ratio": spread([u / s if s else 0.0 for (u, _), (s, _) in zip(unseen, seen)])}
+
+
+def combined(reports, kinds):
     """Records of the same setting, one a seed, as means and intervals."""
     settings = []
     for records in zip(*(report["settings"] for report in reports)):
@@ -85,6 +107,8 @@ def combined(reports):
                     "reward": spread([r["mean_reward"] for r in records])}
         if len(joins) > 1:
             setting["by_join"] = joins
+        if kinds:
+            setting |= by_kinds(records, kinds)
         if "transparency" in first:
             setting["transparency"] = transparency([r["transparency"] for r in records])
         settings.append(setting)
@@ -148,7 +172,7 @@ def summarize(row, steps, logs_folder):
         return None
     trained = {s.seed: s for s in done if s.kind == "train"}
     result = {"name": row.name, "part": row.part, "about": row.about, "config": row.config,
-              "set": row.set, "init": row.init, "of": row.of,
+              "init": row.init, "of": row.of,
               "seeds": sorted({s.seed for s in steps}), "trained": sorted(trained),
               "seconds": sum(s.finished()["seconds"] for s in done), "evaluations": {},
               "commands": [f"{s.program} {' '.join(s.arguments)}" for s in steps
@@ -163,7 +187,8 @@ def summarize(row, steps, logs_folder):
     for kind in dict.fromkeys(s.kind for s in steps if s.kind != "train"):
         of_kind = [s for s in steps if s.kind == kind]
         if all(s in done for s in of_kind):
-            result["evaluations"][kind] = combined([json.loads(s.result.read_text()) for s in of_kind])
+            result["evaluations"][kind] = combined([json.loads(s.result.read_text()) for s in of_kind],
+                                                   held_out(row))
     return rounded(result)
 
 

@@ -7,7 +7,7 @@ from weights import weights_only
 
 CARD = """# {model}
 
-{about}; `{config}`{change}, seed {seed}, {frames:,} frames. Weights alone: enough for `eval` and
+{about}; `{config}`, seed {seed}, {frames:,} frames. Weights alone: enough for `eval` and
 `train --init`, not for `--resume`.
 
     build/release/bin/{train}
@@ -37,8 +37,7 @@ def write(rows, out, scale, target):
         records = json.loads((training.folder / f"{evaluation.name}.json").read_text())["settings"]
         (target / f"{row.model}.md").write_text(CARD.format(
             model=row.model, about=row.about.capitalize(), config=f"configs/{row.config}",
-            change=f" with `{row.set}`" if row.set else "", seed=training.seed,
-            frames=int(training.work), row=row.name, train="train " + " ".join(training.arguments),
+            seed=training.seed, frames=int(training.work), row=row.name, train="train " + " ".join(training.arguments),
             options=f" {evaluation.options}" if evaluation.options else "",
             rows="\n".join(f"| {r['env']} | {r['policy']} | {r['episodes']} "
                            f"| {100 * r['success_rate']:.1f} % | {r['mean_reward']:.3f} |"

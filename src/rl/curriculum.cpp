@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <stdexcept>
 
+#include "wordgaze/core/require.hpp"
 #include "wordgaze/optim/schedule.hpp"
 
 namespace wordgaze::rl {
@@ -10,6 +12,8 @@ namespace wordgaze::rl {
 using babyai::Verb;
 
 namespace {
+
+constexpr int kMostTries = 10'000;
 
 /// Whether the agent can walk to a cell beside this one.
 bool reachable(const grid::World& world, grid::Position target) {
@@ -88,10 +92,22 @@ double Curriculum::Window::rate() const {
 }
 
 Curriculum::Curriculum(const CurriculumConfig& config)
-    : config_(config), pickup_only_(config.pickup_first), half_done_(config.half_done_start) {}
+    : config_(config),
+      held_out_(config.held_out),
+      pickup_only_(config.pickup_first),
+      half_done_(config.half_done_start) {}
 
 Curriculum::Preparation Curriculum::prepare(env::Environment& environment, core::Rng& rng) const {
   Preparation prepared;
+  for (int tries = 0; held_out_.named_in(environment.instruction()); ++tries) {
+    if (tries == kMostTries) {
+      throw std::runtime_error(fmt::format(
+          "curriculum: {} missions of {} in a row name an object of held_out = \"{}\"; hold out "
+          "fewer",
+          kMostTries, environment.id(), config_.held_out));
+    }
+    environment.reset();
+  }
   babyai::Instruction wanted = environment.instruction();
   if (config_.single_clause > 0 && wanted.clauses() > 1 && rng.uniform() < config_.single_clause) {
     const auto pick = static_cast<std::size_t>(rng.below(wanted.clauses()));

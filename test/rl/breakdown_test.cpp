@@ -27,6 +27,24 @@ TEST(Breakdown, NamesVerbsAndJoinsInTheOrderOfTheSentence) {
   EXPECT_DOUBLE_EQ(b.by_clauses.at("2").success_rate(), 0.5);
 }
 
+TEST(Breakdown, CountsAnEpisodeOnceForEachObjectNamed) {
+  using grid::Color;
+  using grid::Type;
+  const babyai::Description red_ball{.type = Type::ball, .color = Color::red};
+  const babyai::Description box{.type = Type::box}, grey{.color = Color::grey};
+  Breakdown b;
+  b.add(babyai::single({.verb = Verb::go_to, .object = red_ball}), true);
+  b.add(babyai::both({.verb = Verb::pickup, .object = red_ball},
+                     {.verb = Verb::go_to, .object = red_ball}),
+        false);
+  b.add(babyai::single({.verb = Verb::put_next, .object = box, .next_to = grey}), true);
+  EXPECT_EQ(b.by_object.at("red ball").episodes, 2);
+  EXPECT_EQ(b.by_object.at("red ball").successes, 1);
+  EXPECT_EQ(b.by_object.at("box").episodes, 1);
+  EXPECT_EQ(b.by_object.at("grey object").successes, 1);
+  EXPECT_EQ(b.by_object.size(), 3u);
+}
+
 TEST(Breakdown, AddsUpOverWorkers) {
   Breakdown a, b;
   a.add(babyai::single(kGo), true);

@@ -141,5 +141,47 @@ TEST(Curriculum, ChangesNoViewAndNoWorldWhilePickupComesFirst) {
   EXPECT_FALSE(Curriculum(config).prepare(environment, rng).helped);
 }
 
+TEST(Curriculum, NamesNothingThatIsHeldOut) {
+  CurriculumConfig config = only(0, 0);
+  config.held_out = "red ball,  blue key , grey box";
+  const Curriculum curriculum(config);
+  for (const char* id : {"Wordgaze-One-N8-K4-v0", "Wordgaze-Two-N8-K4-v0"}) {
+    env::Environment environment(id);
+    core::Rng rng(1);
+    int redrawn = 0;
+    std::set<std::string> named;
+    for (int seed = 0; seed < 400; ++seed) {
+      environment.reset(seed);
+      const auto mission = environment.mission();
+      EXPECT_FALSE(curriculum.prepare(environment, rng).helped);
+      redrawn += environment.mission() != mission;
+      for (const char* kind : {"red ball", "blue key", "grey box", "blue ball", "red key"}) {
+        if (environment.mission().find(kind) != std::string::npos) named.insert(kind);
+      }
+    }
+    EXPECT_EQ(named, (std::set<std::string>{"blue ball", "red key"})) << id;
+    EXPECT_NEAR(redrawn, 400 * environment.instruction().clauses() / 6, 40) << id;
+  }
+}
+
+TEST(Curriculum, GivesUpWhereEverythingIsHeldOut) {
+  CurriculumConfig config = only(0, 0);
+  config.held_out = "red ball";
+  env::Environment environment("BabyAI-GoToRedBall-v0");
+  environment.reset(1);
+  core::Rng rng(1);
+  EXPECT_THROW(Curriculum(config).prepare(environment, rng), std::runtime_error);
+}
+
+TEST(HeldOut, RefusesWhatIsNoKindOfObject) {
+  for (const char* list :
+       {"ball", "red", "red door", "pink ball", "red ball blue key", "red ball,, blue key",
+        "red ball on your left", "red ball and go to the box"}) {
+    EXPECT_THROW(HeldOut{list}, std::invalid_argument) << list;
+  }
+  EXPECT_TRUE(HeldOut("").empty());
+  EXPECT_FALSE(HeldOut("red ball,").empty());
+}
+
 }  // namespace
 }  // namespace wordgaze::rl

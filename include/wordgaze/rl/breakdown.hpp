@@ -19,6 +19,7 @@ struct Breakdown {
   Counts by_verb;     ///< the verbs in the order of the sentence: "go to", "pick up, go to"
   Counts by_join;     ///< the words that join its clauses: "and, then"; "none" for one clause
   Counts by_clauses;  ///< "1" to "4"
+  Counts by_object;   ///< "red ball"; an episode counts once for each that a clause names
 
   void add(const babyai::Instruction& instruction, bool success);
   void operator+=(const Breakdown& other);

@@ -77,6 +77,7 @@ struct CurriculumConfig {
   double single_clause = 0;
   double stretch = 0.5;
   double huddle = 0.3;
+  std::string held_out{};
 
   static constexpr auto settings() {
     using C = CurriculumConfig;
@@ -95,6 +96,8 @@ struct CurriculumConfig {
         Setting{"huddle", &C::huddle,
                 "share of episodes with the other objects around the target, after pickup_first", 0,
                 1},
+        Setting{"held_out", &C::held_out,
+                "kinds of objects that missions never name, as \"red ball, blue key\""},
     };
   }
   bool operator==(const CurriculumConfig&) const = default;

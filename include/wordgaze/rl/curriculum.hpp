@@ -5,6 +5,7 @@
 
 #include "wordgaze/env/environment.hpp"
 #include "wordgaze/rl/config.hpp"
+#include "wordgaze/rl/held_out.hpp"
 #include "wordgaze/rl/stretch.hpp"
 
 namespace wordgaze::rl {
@@ -32,7 +33,8 @@ class Curriculum {
     bool helped = false;  ///< not the task as it stands: success rates leave it out
     Stretch stretch;
   };
-  /// Changes the episode that has just begun.
+  /// Changes the episode that has just begun; begins the next ones in its place while the mission
+  /// names what is held out. Throws std::runtime_error when that seems to go on for ever.
   Preparation prepare(env::Environment& environment, core::Rng& rng) const;
 
   /// Learns from what ended since the last call; `frames` were seen in all.
@@ -56,6 +58,7 @@ class Curriculum {
   };
 
   CurriculumConfig config_;
+  HeldOut held_out_;
   bool pickup_only_;
   double go_to_share_ = 0.5;
   double half_done_ = 0;
