@@ -117,6 +117,15 @@ void Environment::move_object(grid::ObjectId id, grid::Position to) {
   world_.put(id, to);
 }
 
+void Environment::take_object(grid::ObjectId id) {
+  require(id < world_.objects.size() && world_.stands(id) &&
+              grid::can_be_carried(world_.object(id)) && world_.carried == grid::kNothing,
+          "take_object: object {} does not stand in the grid, cannot be carried, or the hand is "
+          "not empty",
+          id);
+  grid::take(world_, world_.object(id).position);
+}
+
 void Environment::mark_completed(int clause) {
   const auto turns = verifier_.declarable();
   require(clause >= 0 && clause < static_cast<int>(turns.size()) && turns[clause] != 0,

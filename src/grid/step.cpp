@@ -3,15 +3,6 @@
 namespace wordgaze::grid {
 namespace {
 
-void pick_up(World& world, Position front) {
-  const ObjectId id = world.grid[front];
-  if (world.carried != kNothing || !can_be_carried(world.object(id))) return;
-  world.carried = id;
-  world.carried_from = front;
-  world.objects[id].position = kNowhere;
-  world.grid[front] = kNothing;
-}
-
 void drop(World& world, Position front) {
   if (world.carried == kNothing || world.grid[front] != kNothing) return;
   world.put(world.carried, front);
@@ -43,6 +34,15 @@ void toggle(World& world, Position front) {
 
 }  // namespace
 
+void take(World& world, Position from) {
+  const ObjectId id = world.grid[from];
+  if (world.carried != kNothing || !can_be_carried(world.object(id))) return;
+  world.carried = id;
+  world.carried_from = from;
+  world.objects[id].position = kNowhere;
+  world.grid[from] = kNothing;
+}
+
 Events step(World& world, Action action) {
   ++world.step_count;
   const Position front = world.front();
@@ -62,7 +62,7 @@ Events step(World& world, Action action) {
       break;
     }
     case Action::pickup:
-      pick_up(world, front);
+      take(world, front);
       break;
     case Action::drop:
       drop(world, front);

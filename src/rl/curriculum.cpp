@@ -77,6 +77,20 @@ void complete_one(env::Environment& environment, core::Rng& rng) {
   environment.mark_completed(clauses[static_cast<std::size_t>(pick)]);
 }
 
+/// Whether an episode has something to be done that is not all of it.
+bool can_be_half_done(const babyai::Instruction& instruction) {
+  return instruction.clauses() > 1 || instruction.clause[0].verb == Verb::put_next;
+}
+
+/// With several clauses, marks from one to all but one, in an order that the mission allows; a
+/// single "put next" starts with its object in hand.
+void half_do(env::Environment& environment, core::Rng& rng) {
+  const int most = environment.instruction().clauses() - 1;
+  if (most == 0) return environment.take_object(first_of(environment.meaning().object[0]));
+  const int marks = most > 1 ? 1 + rng.below(most) : 1;
+  for (int i = 0; i < marks; ++i) complete_one(environment, rng);
+}
+
 }  // namespace
 
 void Curriculum::Window::add(bool s) {
@@ -130,11 +144,8 @@ Curriculum::Preparation Curriculum::prepare(env::Environment& environment, core:
     prepared.stretch = Stretch::draw(rng);
     prepared.helped = true;
   }
-  if (half_done_ > 0 && wanted.clauses() > 1 && rng.uniform() < half_done_) {
-    // From one clause to all but one, in an order that the mission allows.
-    const int most = wanted.clauses() - 1;
-    const int marks = most > 1 ? 1 + rng.below(most) : 1;
-    for (int i = 0; i < marks; ++i) complete_one(environment, rng);
+  if (half_done_ > 0 && can_be_half_done(wanted) && rng.uniform() < half_done_) {
+    half_do(environment, rng);
     prepared.helped = true;
   }
   return prepared;

@@ -257,6 +257,19 @@ TEST(Environment, MovesAnObjectToAnEmptyCell) {
   EXPECT_THROW(env.move_object(grid::kWall, home), std::invalid_argument);
 }
 
+TEST(Environment, StartsWithAnObjectInHand) {
+  Environment env("BabyAI-PutNextLocal-v0");
+  env.reset(3);
+  const grid::ObjectId object = grid::kWall + 1;
+  const grid::Position home = env.world().object(object).position;
+  env.take_object(object);
+  EXPECT_EQ(env.world().carried, object);
+  EXPECT_EQ(env.world().grid[home], grid::kNothing);
+  EXPECT_THROW(env.take_object(object), std::invalid_argument);      // carried already
+  EXPECT_THROW(env.take_object(object + 1), std::invalid_argument);  // the hand is full
+  EXPECT_THROW(env.take_object(grid::kWall), std::invalid_argument);
+}
+
 TEST(Environment, EndsWhenNothingIsLeftToBeDeclared) {
   Environment env = two_clauses(babyai::Order::any);
   const Transition t = env.step(Action::done);

@@ -10,6 +10,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "scripts" / folder) for folder in ("reproduction", "performance")]
+import agreement
 import summary
 from rows import ROWS
 
@@ -97,7 +98,7 @@ class Rows(unittest.TestCase):
         seen = set()
         for row in ROWS:
             self.assertNotIn(row.name, seen)
-            self.assertTrue(row.of or not row.config or (ROOT / "configs" / row.config).exists())
+            self.assertTrue((ROOT / "configs" / row.config).exists(), row.config)
             self.assertLessEqual({row.init, row.of} - {""}, seen, row.name)
             seen.add(row.name)
 
@@ -117,6 +118,18 @@ class Statistics(unittest.TestCase):
         self.assertGreater(width(1000), width() - 0.005)
         self.assertEqual(summary.interval([0.5], None), [0.5, 0.5])
 
+    def test_kinds_held_out_are_told_from_the_others(self):
+        record = {"by_object": {"red ball": {"episodes": 100, "success_rate": 0.5},
+                                "blue key": {"episodes": 300, "success_rate": 0.7},
+                                "grey box": {"episodes": 50, "success_rate": 0.8}}}
+        figures = summary.by_kinds([record], {"red ball", "blue key"})
+        self.assertAlmostEqual(figures["held_out"]["mean"], 0.65)
+        self.assertAlmostEqual(figures["seen"]["mean"], 0.8)
+        self.assertAlmostEqual(figures["ratio"]["mean"], 0.65 / 0.8)
+        row = next(row for row in ROWS if row.name == "held-out")
+        self.assertEqual(len(summary.held_out(row)), 5)
+        self.assertEqual(summary.held_out(ROWS[0]), set())
+
     def test_thinned_keeps_the_last_row(self):
         rows = summary.thinned(list(range(1001)))
         self.assertLessEqual(len(rows), summary.LARGEST_LOG)
@@ -126,6 +139,24 @@ class Statistics(unittest.TestCase):
         log = [{"frames": 1000.0 * k, "mean_length": 2.0, "success_rate": 1.0} for k in range(1, 5)]
         self.assertEqual(summary.reached(log, 0.9), [2000, 1000])
         self.assertIsNone(summary.reached(log[:1], 0.9))
+
+
+class Agreement(unittest.TestCase):
+    def data(self, rates):
+        setting = {"env": "E", "policy": "greedy", "episodes": 1000, "success": {"seeds": rates}}
+        return {"rows": [{"name": "row", "evaluations": {"own": [setting]}}]}
+
+    def test_another_seed_is_expected_near_the_others(self):
+        published = self.data([0.90, 0.92, 0.91, 0.93, 0.89])
+        self.assertEqual(agreement.compare(self.data([0.95]), published), (1, []))
+        compared, outside = agreement.compare(self.data([0.80]), published)
+        self.assertEqual((compared, len(outside)), (1, 1))
+        self.assertIn("row, E, greedy: 80.0 %", outside[0])
+        self.assertEqual(agreement.compare({"rows": []}, published), (0, []))
+
+    def test_seeds_that_are_all_perfect_leave_room_for_chance(self):
+        low, high = agreement.expected([1.0] * 5, 1000)
+        self.assertTrue(0.99 < low < 0.9985 and high == 1, low)
 
 
 if __name__ == "__main__":

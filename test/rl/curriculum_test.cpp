@@ -48,6 +48,17 @@ TEST(Curriculum, HalfDoneStartsLeaveFromOneClauseToAllButOne) {
             (Starts{{1, 0, 0, 0}, {0, 1, 0, 0}, {1, 1, 0, 0}, {1, 1, 1, 0}, {1, 1, 0, 1}}));
 }
 
+TEST(Curriculum, HalfDoneStartsOfPutNextHaveTheObjectInHand) {
+  const Curriculum curriculum = half_done(1);
+  env::Environment environment("BabyAI-PutNextLocal-v0");
+  core::Rng rng(1);
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    environment.reset(seed);
+    EXPECT_TRUE(curriculum.prepare(environment, rng).helped);
+    EXPECT_EQ(grid::only(environment.world().carried), environment.meaning().object[0]);
+  }
+}
+
 TEST(Curriculum, LeavesTheEpisodesAloneThatItIsNotToHelp) {
   const Curriculum curriculum = half_done(0);
   env::Environment environment("Wordgaze-Two-N8-K4-v0");

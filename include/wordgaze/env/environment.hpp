@@ -96,6 +96,9 @@ class Environment {
   /// Puts an object that stands in the grid into an empty cell of it. Throws std::invalid_argument
   /// for any other object or cell.
   void move_object(grid::ObjectId id, grid::Position to);
+  /// Starts with an object in hand. Throws std::invalid_argument unless it stands in the grid, can
+  /// be carried, and nothing else is.
+  void take_object(grid::ObjectId id);
 
   /// The complete state, random stream included.
   std::vector<std::uint8_t> serialize() const;

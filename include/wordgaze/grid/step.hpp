@@ -13,4 +13,8 @@ struct Events {
 /// One action of the agent; the only place where a running world changes. (spec 2.5)
 Events step(World& world, Action action);
 
+/// Puts what stands at a position into the agent's hand, if it can be carried and the hand is
+/// empty.
+void take(World& world, Position from);
+
 }  // namespace wordgaze::grid

@@ -85,8 +85,11 @@ struct CurriculumConfig {
         Setting{"pickup_first", &C::pickup_first, "only pick-up missions at first"},
         Setting{"pickup_until", &C::pickup_until, "success that ends pickup_first", 0, 1},
         Setting{"balance", &C::balance, "then draw the verb that succeeds less more often"},
-        Setting{"half_done_start", &C::half_done_start,
-                "share of episodes that start with clauses done, at the start", 0, 1},
+        Setting{
+            "half_done_start", &C::half_done_start,
+            "share of episodes that start with clauses done, or the object of a single put-next in "
+            "hand; at the start",
+            0, 1},
         Setting{"half_done_end", &C::half_done_end, "and from half_done_frames on", 0, 1},
         Setting{"half_done_frames", &C::half_done_frames, "frames over which it changes", 0, 1e12},
         Setting{"single_clause", &C::single_clause, "share of episodes cut down to one clause", 0,
