@@ -86,7 +86,8 @@ ROWS = [
           "no-gaze-floor": "s(M) = (M / max M)^2, no floor",
           "entropy-base-e": "natural logarithm in the entropies",
           "gaze-exponent-1": "s(M) with p = 1",
-          "no-encoder-leak": "plain ReLU in the encoder"}.items()),
+          "leaky-encoder": "leaky ReLU in the encoder (0.1)",
+          "relu-encoder": "plain ReLU in the encoder"}.items()),
     Row("single-3x3", "ablation", "single-3x3.toml", evaluations=(GRID, GAZE),
         about="encoder of two 3x3 convolutions"),
 ]

@@ -35,7 +35,7 @@ struct Config {
   double gaze_floor = 0.1;    ///< f: what is left of the darkest cells
   double object_prior = 2;    ///< initial score of every word on objects over other cells; 0: none
   double encoder_bias = 1;    ///< initial bias of the visual encoder: near-linear at the start
-  double encoder_leak = 0.1;  ///< slope of its leaky ReLU below zero; 0: plain ReLU
+  double encoder_leak = 1;  ///< slope of its leaky ReLU below zero; 1: linear, 0: plain ReLU
 
   static constexpr auto settings() {
     using C = Config;
@@ -70,7 +70,7 @@ struct Config {
         Setting{"encoder_bias", &C::encoder_bias,
                 "initial bias of the visual encoder (1: near-linear at the start)", -4, 4},
         Setting{"encoder_leak", &C::encoder_leak,
-                "slope of the encoder's leaky ReLU below zero; 0 is the plain ReLU", 0, 1},
+                "slope of the encoder's leaky ReLU below zero; 1 is a linear encoder, 0 the plain ReLU", 0, 1},
     };
   }
 
