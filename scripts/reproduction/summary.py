@@ -166,7 +166,7 @@ def rounded(value):
 
 
 def summarize(row, steps, logs_folder):
-    """What is finished of a row, or None; an evaluation counts when all seeds have it."""
+    """What is finished of a row, or None: of each evaluation the seeds that have it."""
     done = [s for s in steps if s.finished()]
     if not done:
         return None
@@ -185,8 +185,8 @@ def summarize(row, steps, logs_folder):
                    "reached": {str(level): [reached(log, level) for log in logs.values()]
                                for level in (0.9, 0.95, 0.99)}}
     for kind in dict.fromkeys(s.kind for s in steps if s.kind != "train"):
-        of_kind = [s for s in steps if s.kind == kind]
-        if all(s in done for s in of_kind):
+        of_kind = [s for s in done if s.kind == kind]
+        if of_kind:
             result["evaluations"][kind] = combined([json.loads(s.result.read_text()) for s in of_kind],
                                                    held_out(row))
     return rounded(result)

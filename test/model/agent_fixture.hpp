@@ -33,6 +33,7 @@ inline model::Config small_config() {
   c.task_size = 6;
   c.task_words = 14;
   c.clauses = 2;
+  c.encoder_leak = 0.1;
   return c;
 }
 
