@@ -6,10 +6,10 @@
 
 namespace wordgaze::model {
 
-/// The visual encoding O~: a 1x1 convolution with leaky ReLU over the one-hot cells of the 7x7
-/// view; equation (V) in docs/math.md. Without the leak a sum of type and color can fall silent for
-/// good, and then one object of eighteen is never found (docs/reading.md). It keeps the map, and
-/// since it looks at one cell at a time it is a table over the alphabet.
+/// The visual encoding O~: a 1x1 convolution over the one-hot cells of the 7x7 view, linear or with
+/// a leaky ReLU; equation (V) in docs/math.md. Linear by default: else one object of eighteen may
+/// become an exception that is never found (docs/reading.md). It keeps the map, and since it looks
+/// at one cell at a time it is a table over the alphabet.
 ///
 /// shapes   table [C, P]: the encoding of each of the P codes
 /// backward accumulates into grads (+=)
