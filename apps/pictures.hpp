@@ -1,6 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "wordgaze/draw/decision_figure.hpp"
 #include "wordgaze/nn/categorical.hpp"
@@ -10,7 +12,7 @@
 namespace wordgaze::apps {
 
 /// Draws the decisions of an episode that tell most: the first, the one at which a target comes
-/// into view, and the last.
+/// into view, the one after a clause is completed, and the last.
 class Painter final : public rl::Observer {
  public:
   Painter(std::filesystem::path folder, const env::Environment& environment)
@@ -23,16 +25,21 @@ class Painter final : public rl::Observer {
     before_ = environment_->world();
     comes_into_view_ = target_in_view && !seen_;
     seen_ = seen_ || target_in_view;
+    const auto completion = environment_->completion();
+    clause_completed_ = !std::ranges::equal(completion, completion_);
+    completion_.assign(completion.begin(), completion.end());
   }
 
   bool wants_episode(std::int64_t) override { return true; }
   void on_begin(const rl::EpisodeBegin& begin) override {
     episode_ = begin.episode;
     seen_ = false;
+    const auto completion = environment_->completion();
+    completion_.assign(completion.begin(), completion.end());
   }
   void on_step(const rl::StepRecord& step) override {
     const bool last = step.terminated || step.truncated;
-    if (step.step > 0 && !comes_into_view_ && !last) return;
+    if (step.step > 0 && !comes_into_view_ && !clause_completed_ && !last) return;
     const auto image = draw::decision_figure(
         step,
         {.world = before_, .sentence = environment_->sentence(), .env_id = environment_->id()});
@@ -46,7 +53,8 @@ class Painter final : public rl::Observer {
   const env::Environment* environment_;
   grid::World before_;
   std::int64_t episode_ = 0;
-  bool seen_ = false, comes_into_view_ = false;
+  std::vector<std::uint8_t> completion_;  // c_t of the last decision
+  bool seen_ = false, comes_into_view_ = false, clause_completed_ = false;
   int pictures_ = 0;
 };
 

@@ -46,7 +46,7 @@ ROWS = [
     Row("structured", "task", "structured.toml", init="single", evaluations=(OWN, GAZE), main=True,
         model="structured", about="attention and task attention"),
     Row("structured-attention", "task", "structured-attention.toml", init="single", main=True,
-        model="structured-attention", about="attention only"),
+        about="attention only"),
     Row("structured-baseline", "task", "structured-baseline.toml", init="baseline", main=True,
         about="no attention"),
     Row("structured-places", "task", "structured-places.toml", init="single", evaluations=(OWN, GAZE),
@@ -77,7 +77,7 @@ ROWS = [
 
     *(Row(name, "ablation", f"ablations/{name}.toml", evaluations=(GRID,), about=about)
       for name, about in {
-          "single-2m": "as it is",
+          "single-short": "as it is",
           "no-object-prior": "no prior that words look at objects",
           "no-pickup-first": "both verbs from the start",
           "no-balance": "verbs not balanced",

@@ -139,7 +139,7 @@ def transparency(reports):
                          "insertion_others": mean(name, "faithfulness_in_view", "insertion", "1",
                                                   "others")}
     for name, keys in (("words", ("color_pointing", "type_pointing", "content_weight",
-                                  "function_weight")), ("mask", ("f1", "delay"))):
+                                  "function_weight")), ("mask", ("f1", "delay", "alpha_bright", "alpha_dark"))):
         figures[name] = {key: mean(name, key) for key in keys}
     return figures
 

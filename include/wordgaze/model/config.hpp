@@ -21,21 +21,21 @@ struct Config {
   bool task_places = false;       ///< it reads the weighted words place by place, not their sum
   bool completion_input = false;  ///< c_t goes to the memory, beside the filtered view
   Encoder encoder = Encoder::cell;
-  int channels = 16;          ///< C: feature maps of the visual encoding O~
-  int word_size = 16;         ///< E: word embedding g~
-  int key_size = 16;          ///< d_k
-  int memory_size = 64;       ///< LSTM
-  int text_size = 32;         ///< GRU over the mission
-  int head_size = 64;         ///< hidden layer of actor and of critic
-  int task_size = 64;         ///< hidden layer of the Task Attention Module
-  int task_words = 32;        ///< outputs of the Task Attention Module: longest mission it takes
-  int clauses = 4;            ///< length of the completion vector c_t
-  double entropy_base = 49;   ///< base of the logarithm in the row entropies H (eq. 2)
-  double gaze_exponent = 2;   ///< p in s(M) = f + (1 - f) (M / max M)^p
-  double gaze_floor = 0.1;    ///< f: what is left of the darkest cells
-  double object_prior = 2;    ///< initial score of every word on objects over other cells; 0: none
-  double encoder_bias = 1;    ///< initial bias of the visual encoder: near-linear at the start
-  double encoder_leak = 1;  ///< slope of its leaky ReLU below zero; 1: linear, 0: plain ReLU
+  int channels = 16;         ///< C: feature maps of the visual encoding O~
+  int word_size = 16;        ///< E: word embedding g~
+  int key_size = 16;         ///< d_k
+  int memory_size = 64;      ///< LSTM
+  int text_size = 32;        ///< GRU over the mission
+  int head_size = 64;        ///< hidden layer of actor and of critic
+  int task_size = 64;        ///< hidden layer of the Task Attention Module
+  int task_words = 32;       ///< outputs of the Task Attention Module: longest mission it takes
+  int clauses = 4;           ///< length of the completion vector c_t
+  double entropy_base = 49;  ///< base of the logarithm in the row entropies H (eq. 2)
+  double gaze_exponent = 2;  ///< p in s(M) = f + (1 - f) (M / max M)^p
+  double gaze_floor = 0.1;   ///< f: what is left of the darkest cells
+  double object_prior = 2;   ///< initial score of every word on objects over other cells; 0: none
+  double encoder_bias = 1;   ///< initial bias of the visual encoder: near-linear at the start
+  double encoder_leak = 1;   ///< slope of its leaky ReLU below zero; 1: linear, 0: plain ReLU
 
   static constexpr auto settings() {
     using C = Config;
@@ -69,8 +69,10 @@ struct Config {
                 16},
         Setting{"encoder_bias", &C::encoder_bias,
                 "initial bias of the visual encoder (1: near-linear at the start)", -4, 4},
-        Setting{"encoder_leak", &C::encoder_leak,
-                "slope of the encoder's leaky ReLU below zero; 1 is a linear encoder, 0 the plain ReLU", 0, 1},
+        Setting{
+            "encoder_leak", &C::encoder_leak,
+            "slope of the encoder's leaky ReLU below zero; 1 is a linear encoder, 0 the plain ReLU",
+            0, 1},
     };
   }
 
