@@ -71,6 +71,10 @@ ROWS = [
     Row("held-out", "kinds", "held-out.toml", evaluations=(KINDS,), about="attention"),
     Row("held-out-baseline", "kinds", "held-out-baseline.toml", evaluations=(KINDS,),
         about="no attention"),
+    Row("held-out-partial", "kinds", "held-out-partial.toml", evaluations=(KINDS,),
+        about="attention, half of the missions by one word"),
+    Row("held-out-partial-baseline", "kinds", "held-out-partial-baseline.toml", evaluations=(KINDS,),
+        about="no attention, half of the missions by one word"),
 
     *(Row(level, "babyai", f"babyai/{level}.toml")
       for level in ("GoToRedBallGrey", "GoToRedBall", "GoToLocal", "PickupLoc", "PutNextLocal")),

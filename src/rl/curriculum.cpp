@@ -14,6 +14,7 @@ using babyai::Verb;
 namespace {
 
 constexpr int kMostTries = 10'000;
+constexpr int kFirstObject = grid::kWall + 1;
 
 /// Whether the agent can walk to a cell beside this one.
 bool reachable(const grid::World& world, grid::Position target) {
@@ -54,7 +55,7 @@ void huddle(env::Environment& environment, core::Rng& rng) {
   if (meant[0] == 0 || babyai::several(meant[0])) return;
   const auto target = first_of(meant[0]);
   const auto center = world.object(target).position;
-  for (grid::ObjectId id = grid::kWall + 1; id < world.objects.size(); ++id) {
+  for (grid::ObjectId id = kFirstObject; id < world.objects.size(); ++id) {
     if (id == target || !world.stands(id)) continue;
     const auto home = world.object(id).position;
     const auto dx = static_cast<std::int16_t>(rng.below(3) - 1);
@@ -75,6 +76,29 @@ void complete_one(env::Environment& environment, core::Rng& rng) {
   }
   const int pick = clauses.size() > 1 ? rng.below(static_cast<int>(clauses.size())) : 0;
   environment.mark_completed(clauses[static_cast<std::size_t>(pick)]);
+}
+
+/// One of the objects that can be carried, or nothing.
+grid::ObjectId any_object(const grid::World& world, core::Rng& rng) {
+  grid::ObjectId chosen = grid::kNothing;
+  int found = 0;
+  for (grid::ObjectId id = kFirstObject; id < world.objects.size(); ++id) {
+    if (!world.stands(id) || !grid::can_be_carried(world.object(id))) continue;
+    if (rng.below(++found) == 0) chosen = id;
+  }
+  return chosen;
+}
+
+/// Makes every clause ask for some object of the world by its color or its type alone.
+void describe_partly(const grid::World& world, babyai::Instruction& wanted, core::Rng& rng) {
+  for (int i = 0; i < wanted.clauses(); ++i) {
+    const auto id = any_object(world, rng);
+    if (id == grid::kNothing) return;
+    const auto& object = world.object(id);
+    wanted.clause[static_cast<std::size_t>(i)].object =
+        rng.below(2) == 0 ? babyai::Description{.type = object.type}
+                          : babyai::Description{.color = object.color};
+  }
 }
 
 /// Whether an episode has something to be done that is not all of it.
@@ -134,6 +158,10 @@ Curriculum::Preparation Curriculum::prepare(env::Environment& environment, core:
       if (verb != Verb::go_to && verb != Verb::pickup) continue;
       verb = rng.uniform() < share ? Verb::go_to : Verb::pickup;
     }
+  }
+  if (config_.partial > 0 && rng.uniform() < config_.partial) {
+    describe_partly(environment.world(), wanted, rng);
+    prepared.helped = true;
   }
   if (wanted != environment.instruction()) environment.set_instruction(wanted);
   if (!pickup_only_ && config_.huddle > 0 && rng.uniform() < config_.huddle) {

@@ -175,6 +175,27 @@ TEST(Curriculum, NamesNothingThatIsHeldOut) {
   }
 }
 
+TEST(Curriculum, PartialMissionsNameSomeObjectByOneWord) {
+  CurriculumConfig config = only(0, 0);
+  config.partial = 1;
+  config.held_out = "red ball, blue key, grey box";
+  env::Environment environment("Wordgaze-One-N8-K4-v0");
+  core::Rng rng(1);
+  int types = 0, held_out = 0;
+  for (int seed = 0; seed < 200; ++seed) {
+    environment.reset(seed);
+    EXPECT_TRUE(Curriculum(config).prepare(environment, rng).helped);
+    const auto& meant = environment.instruction().clause[0].object;
+    EXPECT_NE(meant.type.has_value(), meant.color.has_value());
+    types += meant.type.has_value();
+    const auto& target = environment.world().object(
+        static_cast<grid::ObjectId>(std::countr_zero(environment.meaning().object[0])));
+    held_out += target.type == grid::Type::ball && target.color == grid::Color::red;
+  }
+  EXPECT_NEAR(types, 100, 30);
+  EXPECT_GT(held_out, 0);  // never named as what they are, but they are things like others
+}
+
 TEST(Curriculum, GivesUpWhereEverythingIsHeldOut) {
   CurriculumConfig config = only(0, 0);
   config.held_out = "red ball";

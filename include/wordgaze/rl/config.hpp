@@ -78,6 +78,7 @@ struct CurriculumConfig {
   double stretch = 0.5;
   double huddle = 0.3;
   std::string held_out{};
+  double partial = 0;
 
   static constexpr auto settings() {
     using C = CurriculumConfig;
@@ -101,6 +102,9 @@ struct CurriculumConfig {
                 1},
         Setting{"held_out", &C::held_out,
                 "kinds of objects that missions never name, as \"red ball, blue key\""},
+        Setting{"partial", &C::partial,
+                "share of episodes whose clauses name some object by its color or type alone", 0,
+                1},
     };
   }
   bool operator==(const CurriculumConfig&) const = default;

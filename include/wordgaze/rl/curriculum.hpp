@@ -21,9 +21,9 @@ struct Outcome {
 };
 
 /// Decides what training episodes ask for. Worlds come from the level; the curriculum changes
-/// verbs, cuts a mission down to a clause, does a part of it, moves objects around the target, or
-/// makes the room seem larger. It learns from outcomes between rollouts only, so
-/// that lanes can ask it at the same time.
+/// verbs, cuts a mission down to a clause or a description to a word, does a part of it, moves
+/// objects around the target, or makes the room seem larger. It learns from outcomes between
+/// rollouts only, so that lanes can ask it at the same time.
 class Curriculum {
  public:
   explicit Curriculum(const CurriculumConfig& config);
