@@ -3,6 +3,8 @@ is to be expected."""
 import math
 import statistics
 
+from summary import deviation
+
 # 97.5 % quantiles of Student's t for 1, 2, ... degrees of freedom; behind them the normal one.
 STUDENT = [12.71, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262]
 
@@ -12,8 +14,7 @@ def expected(rates, episodes):
     k, mean = len(rates), statistics.fmean(rates)
     if k < 2:
         return 0.0, 1.0
-    p = (mean * episodes + 1) / (episodes + 2)  # so that 100 % has a variance too
-    variance = statistics.variance(rates) * (1 + 1 / k) + p * (1 - p) / episodes
+    variance = statistics.variance(rates) * (1 + 1 / k) + deviation(mean, episodes) ** 2
     half = (STUDENT[k - 2] if k - 2 < len(STUDENT) else 1.96) * math.sqrt(variance)
     return max(0.0, mean - half), min(1.0, mean + half)
 

@@ -34,6 +34,10 @@ def success(spread):
     return f"{percent(spread['mean'])} [{percent(low)}, {percent(high)}]"
 
 
+def seeds(setting):
+    return str(len(setting["success"]["seeds"]))
+
+
 def share(spread):
     return "-" if spread is None else f"{spread['mean']:.3f}"
 
@@ -150,12 +154,12 @@ def ablation_table(results):
             settings = of_policy(grid, policy)
             at = {(s["room"], s["objects"]): s["success"] for s in settings}
             sampled = policy == "sampled"
-            lines.append([row["about"] if sampled else "", policy,
+            lines.append([row["about"] if sampled else "", policy, seeds(settings[0]),
                           *(success(at[place]) if place in at else "-" for place in ABLATED_AT),
                           percent(statistics.fmean(s["success"]["mean"] for s in settings)),
                           percent(statistics.fmean(s["success"]["iqm"] for s in settings)),
                           millions(row, "0.95") if sampled else ""])
-    return table(["variant", "policy", *(f"{n}x{n}, {k}" for n, k in ABLATED_AT), "all settings",
+    return table(["variant", "policy", "seeds", *(f"{n}x{n}, {k}" for n, k in ABLATED_AT), "all settings",
                   "IQM of all", "95 % after"], lines) if lines else ""
 
 
@@ -167,11 +171,11 @@ def task_table(results):
             continue
         sampled = of_policy(own, "sampled")[0]
         joins = sampled.get("by_join", {})
-        lines.append([row["name"], row["about"], *both(own), percent(sampled["success"]["iqm"]),
+        lines.append([row["name"], row["about"], seeds(sampled), *both(own), percent(sampled["success"]["iqm"]),
                       percent(min(sampled["success"]["seeds"])),
                       *(percent(joins[j]) if j in joins else "-" for j in ("and", "then", "after")),
                       millions(row, "0.9"), millions(row, "0.95")])
-    return table(["row", "variant", "sampled", "greedy", "IQM", "lowest seed", "and", "then", "after",
+    return table(["row", "variant", "seeds", "sampled", "greedy", "IQM", "lowest seed", "and", "then", "after",
                   "90 % after", "95 % after"], lines) if lines else ""
 
 
@@ -183,10 +187,11 @@ def beyond_table(results):
                 sampled = of_policy(settings, "sampled")[0]
                 joins = sampled.get("by_join")
                 hardest = min(joins, key=joins.get) if joins else None
-                lines.append([settings[0]["env"], row["name"], row["about"], *both(settings),
+                lines.append([settings[0]["env"], row["name"], row["about"], seeds(sampled),
+                              *both(settings),
                               percent(sampled["success"]["iqm"]),
                               f"{hardest}: {percent(joins[hardest])}" if joins else ""])
-    return table(["environment", "row", "agent", "sampled", "greedy", "IQM", "hardest joins, sampled"],
+    return table(["environment", "row", "agent", "seeds", "sampled", "greedy", "IQM", "hardest joins, sampled"],
                  sorted(lines)) if lines else ""
 
 
@@ -194,10 +199,10 @@ def kinds_table(results):
     lines = []
     for row in results.part("kinds"):
         for s in row["evaluations"].get("kinds", []):
-            lines.append([row["name"], row["about"], s["policy"], success(s["seen"]),
+            lines.append([row["name"], row["about"], seeds(s), s["policy"], success(s["seen"]),
                           success(s["held_out"]), success(s["ratio"]),
                           percent(min(s["ratio"]["seeds"]))])
-    return table(["row", "agent", "policy", "named in training", "held out", "ratio", "lowest seed"],
+    return table(["row", "agent", "seeds", "policy", "named in training", "held out", "ratio", "lowest seed"],
                  lines) if lines else ""
 
 
@@ -206,9 +211,9 @@ def babyai_table(results):
     for row in results.part("babyai"):
         reached = [r for r in row["reached"]["0.99"] if r]
         episodes = f"{statistics.median(r[1] for r in reached):,.0f}" if reached else "-"
-        lines.append([row["name"], f"{row['frames'] / 1e6:.1f}M", *both(row["evaluations"].get("own")),
+        lines.append([row["name"], f"{row['frames'] / 1e6:.1f}M", str(len(row["trained"])), *both(row["evaluations"].get("own")),
                       millions(row, "0.99"), episodes])
-    return table(["level", "trained for", "sampled", "greedy", "99 % after", "that is, episodes, about"],
+    return table(["level", "trained for", "seeds", "sampled", "greedy", "99 % after", "that is, episodes, about"],
                  lines) if lines else ""
 
 
@@ -275,6 +280,16 @@ def commands(results):
     return "\n".join(lines).rstrip()
 
 
+def unfinished(results):
+    """The rows with fewer seeds than they should have."""
+    missing = {}
+    for row in results.rows:
+        if not row["of"] and len(row["trained"]) < len(row["seeds"]):
+            missing.setdefault(f"{len(row['trained'])} of {len(row['seeds'])} seeds", []).append(row)
+    return "\n".join(f"**Not finished**, {seeds}: {', '.join(row['name'] for row in rows)}."
+                     for seeds, rows in missing.items())
+
+
 def write_page(folder):
     results = Results(json.loads((folder / "data/results.json").read_text()))
     images, sections = folder / "images/results", [HEAD]
@@ -299,10 +314,7 @@ def write_page(folder):
         f"programs at a time: {data['jobs']}) on {machine['cores']} cores of {machine['processor']}; "
         f"commit {machine['commit']}, {machine['compiler']}, `{machine['flags']}`."
         + (f" **Smaller than the full run: {smaller}.**" if smaller else ""))
-    missing = [f"{r['name']} ({len(r['trained'])} of {len(r['seeds'])} seeds)" for r in results.rows
-               if not r["of"] and len(r["trained"]) < len(r["seeds"])]
-    if missing:
-        sections.append(f"Not finished: {', '.join(missing)}.")
+    sections.append(unfinished(results))
     reached = targets(results)
     section("Targets", reached and table(["target", "measured", ""], reached))
     section("Grounding", "One clause, trained in 8x8 with four objects only (`Wordgaze-One-N8-K4-v0`). The paper reports, "
@@ -344,7 +356,7 @@ def write_page(folder):
             "view, one cell for deletion and insertion." if any(
                 "gaze" in r["evaluations"] for r in results.rows) else "", *transparency_tables(results))
     section("Commands and configurations", commands(results))
-    (folder / "results.md").write_text("\n\n".join(sections) + "\n")
+    (folder / "results.md").write_text("\n\n".join(filter(None, sections)) + "\n")
 
 
 if __name__ == "__main__":

@@ -23,6 +23,12 @@ def interquartile_mean(values):
     return statistics.fmean(sorted(values)[cut:len(values) - cut])
 
 
+def deviation(p, episodes):
+    """Of a rate over so many episodes; a success and a failure are added, so that 100 % has one too."""
+    p = (p * episodes + 1) / (episodes + 2)
+    return math.sqrt(p * (1 - p) / episodes)
+
+
 def interval(rates, episodes=None):
     """95 % bootstrap interval of the mean: seeds are drawn with replacement and, given the number of
     episodes behind each rate of success, the rate anew (a normal draw with the binomial's variance)."""
@@ -30,7 +36,7 @@ def interval(rates, episodes=None):
     for _ in range(RESAMPLES):
         drawn = rng.choices(rates, k=len(rates))
         if episodes:
-            drawn = [min(1.0, max(0.0, rng.gauss(p, math.sqrt(p * (1 - p) / episodes)))) for p in drawn]
+            drawn = [min(1.0, max(0.0, rng.gauss(p, deviation(p, episodes)))) for p in drawn]
         means.append(statistics.fmean(drawn))
     means.sort()
     return [means[int(0.025 * RESAMPLES)], means[int(0.975 * RESAMPLES)]]
