@@ -2,7 +2,7 @@
 import html
 
 COLORS = ["#1f5fa8", "#b5482a", "#3a8a4d", "#8057a5", "#b08a1e", "#4a9aa8", "#a8517e", "#777777",
-          "#2b2b2b", "#d98cb3"]
+          "#2b2b2b", "#d98cb3", "#7f8f1f"]
 WIDTH, HEIGHT = 270, 200  # of a panel's axes
 LEFT, TOP, GAP, BOTTOM, LINE = 48, 26, 40, 42, 16
 LEGEND, LETTER = 330, 7  # widths of a legend's column, and of a letter at most
@@ -66,5 +66,5 @@ def chart(panels, names, x_label):
 def frame_ticks(frames):
     """0, and a few round numbers of frames; runs end a little behind the last."""
     million = frames / 1e6
-    step = next((s for s in (0.01, 0.05, 0.1, 0.5, 1, 2, 5) if million / s <= 5.1), 10)
+    step = next((s for s in (0.01, 0.05, 0.1, 0.5, 1, 2, 3, 5) if million / s <= 5.1), 10)
     return [(1e6 * step * k, f"{step * k:g}M") for k in range(int(million / step + 0.95) + 1)]
