@@ -36,8 +36,9 @@ def write(rows, out, scale, target):
         evaluation = row.evaluations[0]
         records = json.loads((training.folder / f"{evaluation.name}.json").read_text())["settings"]
         (target / f"{row.model}.md").write_text(CARD.format(
-            model=row.model, about=row.about.capitalize(), config=f"configs/{row.config}",
-            seed=training.seed, frames=int(training.work), row=row.name, train="train " + " ".join(training.arguments),
+            model=row.model, about=row.about[0].upper() + row.about[1:], config=f"configs/{row.config}",
+            seed=training.seed, frames=int(training.work), row=row.name,
+            train=f"train {' '.join(training.arguments)} --threads {training.finished()['threads']}",
             options=f" {evaluation.options}" if evaluation.options else "",
             rows="\n".join(f"| {r['env']} | {r['policy']} | {r['episodes']} "
                            f"| {100 * r['success_rate']:.1f} % | {r['mean_reward']:.3f} |"
