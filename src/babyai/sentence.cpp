@@ -13,7 +13,7 @@ std::string text(const Sentence& sentence) {
   return out;
 }
 
-Sentence sentence_of(std::string_view text, int clause) {
+Sentence sentence_of(std::string_view text, int sub_task) {
   Sentence sentence;
   std::size_t start = 0;
   while ((start = text.find_first_not_of(' ', start)) != text.npos) {
@@ -24,7 +24,7 @@ Sentence sentence_of(std::string_view text, int clause) {
     require(id.has_value(), "mission '{}': '{}' is not in the vocabulary", text, part);
     require(sentence.length < kMaxMissionWords, "mission '{}': more than {} words", text,
             kMaxMissionWords);
-    sentence.append(*id, clause);
+    sentence.append(*id, sub_task);
     start = end;
   }
   return sentence;

@@ -33,63 +33,67 @@ class Writer {
   void part(const Instruction& instruction, Instruction::Part part) {
     for (int k = part.begin; k < part.end; ++k) {
       if (k > part.begin) join({"and"_w});
-      clause(instruction.clause[k], k);
+      clause(instruction.clause[k], meaning_.object[k], meaning_.next_to[k]);
     }
   }
   void join(std::initializer_list<WordId> words) { write(words, kJoining); }
   const Sentence& sentence() const { return sentence_; }
 
  private:
-  void write(std::initializer_list<WordId> words, int clause) {
-    for (WordId word : words) sentence_.append(word, clause);
+  void write(std::initializer_list<WordId> words, int sub_task) {
+    for (WordId word : words) sentence_.append(word, sub_task);
   }
+  void write(std::initializer_list<WordId> words) { write(words, sub_task_); }
 
-  void clause(const Clause& clause, int k) {
+  void clause(const Clause& clause, grid::ObjectSet object, grid::ObjectSet next_to) {
     switch (clause.verb) {
       case Verb::go_to:
-        write({"go"_w, "to"_w}, k);
+        write({"go"_w, "to"_w});
         break;
       case Verb::pickup:
-        write({"pick"_w, "up"_w}, k);
+        write({"pick"_w, "up"_w});
         break;
       case Verb::open:
-        write({"open"_w}, k);
+        write({"open"_w});
         break;
       case Verb::put_next:
-        write({"put"_w}, k);
+        write({"put"_w});
         break;
     }
-    description(clause.object, meaning_.object[k], k);
+    description(clause.object, object);
+    ++sub_task_;
     if (clause.verb == Verb::put_next) {
-      write({"next"_w, "to"_w}, k);
-      description(clause.next_to, meaning_.next_to[k], k);
+      write({"next"_w, "to"_w});
+      description(clause.next_to, next_to);
+      ++sub_task_;
     }
   }
 
-  void description(const Description& d, grid::ObjectSet meant, int k) {
-    write({several(meant) ? "a"_w : "the"_w}, k);
-    if (d.color) write({word_of(*d.color)}, k);
-    write({d.type ? word_of(*d.type) : "object"_w}, k);
+  void description(const Description& d, grid::ObjectSet meant) {
+    write({several(meant) ? "a"_w : "the"_w});
+    if (d.color) write({word_of(*d.color)});
+    write({d.type ? word_of(*d.type) : "object"_w});
     switch (d.location) {
       case Location::anywhere:
         break;
       case Location::left:
-        write({"on"_w, "your"_w, "left"_w}, k);
+        write({"on"_w, "your"_w, "left"_w});
         break;
       case Location::right:
-        write({"on"_w, "your"_w, "right"_w}, k);
+        write({"on"_w, "your"_w, "right"_w});
         break;
       case Location::front:
-        write({"in"_w, "front"_w, "of"_w, "you"_w}, k);
+        write({"in"_w, "front"_w, "of"_w, "you"_w});
         break;
       case Location::behind:
-        write({"behind"_w, "you"_w}, k);
+        write({"behind"_w, "you"_w});
         break;
     }
   }
 
   const Meaning& meaning_;
   Sentence sentence_;
+  int sub_task_ = 0;
 };
 
 }  // namespace

@@ -13,12 +13,12 @@ double ratio(std::int64_t part, std::int64_t whole) {
 }  // namespace
 
 bool MaskQuality::add(std::span<const float> alpha, const babyai::Sentence& sentence,
-                      std::uint8_t bright_clauses) {
+                      std::uint8_t bright_sub_tasks) {
   bool agrees = true;
   for (std::size_t i = 0; i < static_cast<std::size_t>(sentence.length); ++i) {
-    const int clause = sentence.clause_of[i];
-    if (clause < 0) continue;
-    const bool truth = model::is_bright(clause, bright_clauses), given = alpha[i] > 0.5f;
+    const int sub_task = sentence.sub_task_of[i];
+    if (sub_task < 0) continue;
+    const bool truth = model::is_bright(sub_task, bright_sub_tasks), given = alpha[i] > 0.5f;
     (truth ? bright : dark).add(static_cast<double>(alpha[i]));
     ++(truth ? (given ? true_positive : false_negative) : (given ? false_positive : true_negative));
     agrees = agrees && truth == given;

@@ -53,12 +53,11 @@ void Transparency::add_map(const rl::Decision& decision, std::span<const float> 
 
 void Transparency::add_mask(const rl::Decision& decision) {
   const auto& environment = decision.environment;
-  const auto completion = environment.completion();
-  const bool agrees =
-      mask_.add(sight_.mask, environment.sentence(),
-                model::bright_clauses(mask_truth_, completion, environment.declarable()));
+  const babyai::Progress progress = environment.progress();
+  const bool agrees = mask_.add(sight_.mask, environment.sentence(),
+                                model::bright_sub_tasks(mask_truth_, progress));
   mask_delay_.add(static_cast<std::size_t>(decision.lane), environment.step_count() == 0,
-                  bits(completion), agrees);
+                  bits(progress.completion()), agrees);
 }
 
 }  // namespace wordgaze::explain

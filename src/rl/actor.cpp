@@ -34,7 +34,8 @@ void Actor::observe(int lane, const env::Environment& environment) {
                                      frames_.cells.col(lane).data(), grid::kViewCells));
   auto completion = frames_.completion.col(lane);
   completion.setZero();
-  const auto c = environment.completion();
+  const babyai::Progress progress = environment.progress();
+  const auto c = progress.completion();
   for (std::size_t i = 0; i < c.size() && static_cast<Index>(i) < completion.size(); ++i) {
     completion(static_cast<Index>(i)) = c[i];
   }

@@ -98,8 +98,7 @@ void LaneGroup::step_lane(int b, Index column, const Curriculum& curriculum, Rol
   rollout.log_prob[n] = log_p[action];
   rollout.value[n] = cache.values()(0, b);
   rollout.mission_of[n] = actor_.frames().mission_of[static_cast<std::size_t>(b)];
-  rollout.bright[n] =
-      model::bright_clauses(ppo_->mask_truth, environment.completion(), environment.declarable());
+  rollout.bright[n] = model::bright_sub_tasks(ppo_->mask_truth, environment.progress());
   hits_.add(*agent_, actor_, b, environment);
   // A stretched view is not what a record would show.
   if (observer != nullptr && environment.step_count() == 0 && lane.stretch == Stretch{}) {

@@ -4,6 +4,7 @@
 
 #include "grid/drawn_world.hpp"
 #include "wordgaze/babyai/parser.hpp"
+#include "wordgaze/babyai/progress.hpp"
 #include "wordgaze/grid/step.hpp"
 
 namespace wordgaze::babyai {
@@ -43,6 +44,8 @@ class Play {
   std::vector<int> declarable() const {
     return {verifier_.declarable().begin(), verifier_.declarable().end()};
   }
+
+  Progress in_sub_tasks() const { return progress(task_, world, verifier_); }
 
   World world;
 
@@ -97,6 +100,44 @@ TEST(Verifier, WantsTheObjectPutBesideTheOther) {
   Play far("put the red ball next to the red key", {"B>..K", "....."});
   far({left, left, pickup, right, right});
   EXPECT_EQ(far({drop}), Status::ongoing);
+}
+
+std::vector<int> numbers(std::span<const std::uint8_t> flags) {
+  return {flags.begin(), flags.end()};
+}
+
+TEST(Progress, OfPutNextIsToHaveTheObjectAndThenToPutIt) {
+  Play play("put the red ball next to the red key", {"B>..K", "....."});
+  const auto completion = [&] { return numbers(play.in_sub_tasks().completion()); };
+  const auto enabled = [&] { return numbers(play.in_sub_tasks().enabled()); };
+  EXPECT_EQ(completion(), (std::vector{0, 0}));
+  EXPECT_EQ(enabled(), (std::vector{1, 0}));
+  EXPECT_EQ(play.in_sub_tasks().object(0).type, grid::Type::ball);
+  EXPECT_EQ(play.in_sub_tasks().object(1).type, grid::Type::key);
+  play({left, left, pickup, right, right});
+  EXPECT_EQ(completion(), (std::vector{1, 0}));
+  EXPECT_EQ(enabled(), (std::vector{0, 1}));
+  play({drop});  // not beside the key: all anew
+  EXPECT_EQ(completion(), (std::vector{0, 0}));
+  play({pickup, forward});
+  EXPECT_EQ(play({drop}), Status::success);
+  EXPECT_EQ(completion(), (std::vector{1, 1}));
+  EXPECT_EQ(enabled(), (std::vector{0, 0}));
+}
+
+TEST(Progress, GoesByTheObjectInHand) {
+  Play play("put the red ball next to the red key", {"K>.B"});
+  play({left, left, pickup});
+  EXPECT_EQ(numbers(play.in_sub_tasks().completion()), (std::vector{0, 0}));
+}
+
+TEST(Progress, CountsAnyOtherClauseAsOne) {
+  Play play("put the red ball next to the red key, then go to the red ball", {"B>.K", "...."});
+  EXPECT_EQ(numbers(play.in_sub_tasks().completion()), (std::vector{0, 0, 0}));
+  EXPECT_EQ(numbers(play.in_sub_tasks().enabled()), (std::vector{1, 0, 0}));
+  play({left, left, pickup, right, right, drop});
+  EXPECT_EQ(numbers(play.in_sub_tasks().completion()), (std::vector{1, 1, 0}));
+  EXPECT_EQ(numbers(play.in_sub_tasks().enabled()), (std::vector{0, 0, 1}));
 }
 
 TEST(Verifier, WantsADoorOpenedByToggling) {

@@ -25,12 +25,20 @@ TEST(Wording, WritesTheCommaBehindItsWord) {
       "open the red door, then put the ball in front of you next to the key behind you");
 }
 
-TEST(Wording, TellsWhichClauseAWordBelongsTo) {
+TEST(Wording, TellsWhichSubTaskAWordBelongsTo) {
   const Sentence s = worded("go to the ball and pick up the key after you open the door",
                             {"#######", "#K.>Bc#", "#######"});
   EXPECT_EQ(text(s), "go to the ball and pick up the key after you open the door");
-  const std::vector<int> clauses(s.clause_of.begin(), s.clause_of.begin() + s.length);
-  EXPECT_EQ(clauses, (std::vector{0, 0, 0, 0, -1, 1, 1, 1, 1, -1, -1, 2, 2, 2}));
+  const std::vector<int> sub_tasks(s.sub_task_of.begin(), s.sub_task_of.begin() + s.length);
+  EXPECT_EQ(sub_tasks, (std::vector{0, 0, 0, 0, -1, 1, 1, 1, 1, -1, -1, 2, 2, 2}));
+}
+
+TEST(Wording, SplitsPutNextIntoItsHalves) {
+  const Sentence s = worded("put the ball next to the key and open the door",
+                            {"#######", "#K.>Bc#", "#######"});
+  EXPECT_EQ(text(s), "put the ball next to the key and open the door");
+  const std::vector<int> sub_tasks(s.sub_task_of.begin(), s.sub_task_of.begin() + s.length);
+  EXPECT_EQ(sub_tasks, (std::vector{0, 0, 0, 1, 1, 1, 1, -1, 2, 2, 2}));
 }
 
 TEST(Wording, KeepsTheLongestMissionOfTheGrammar) {

@@ -71,7 +71,8 @@ void expect_worded(const Environment& env) {
   for (int k = 0; k < sentence.length; ++k) {
     ASSERT_NE(sentence.words[k], babyai::kPadding);
     ASSERT_LT(sentence.words[k], babyai::kVocabularySize);
-    ASSERT_LT(sentence.clause_of[k], std::max(1, env.instruction().clauses()));
+    ASSERT_LT(sentence.sub_task_of[k],
+              std::max<int>(1, static_cast<int>(env.progress().completion().size())));
   }
   babyai::Sentence read = babyai::sentence_of(env.mission());
   ASSERT_EQ(read.words, sentence.words);

@@ -9,20 +9,28 @@ namespace {
 
 using Bits = std::vector<std::uint8_t>;
 
+std::uint8_t bright(MaskTruth truth, const Bits& completed, const Bits& enabled) {
+  babyai::Progress progress;
+  for (std::size_t i = 0; i < completed.size(); ++i) {
+    progress.add({}, completed[i] != 0, enabled[i] != 0);
+  }
+  return bright_sub_tasks(truth, progress);
+}
+
 TEST(TaskMask, CompletedSilencesOnlyWhatIsDone) {
-  EXPECT_EQ(bright_clauses(MaskTruth::completed, Bits{0, 0}, Bits{1, 0}), 0b11);
-  EXPECT_EQ(bright_clauses(MaskTruth::completed, Bits{1, 0}, Bits{0, 1}), 0b10);
+  EXPECT_EQ(bright(MaskTruth::completed, Bits{0, 0}, Bits{1, 0}), 0b11);
+  EXPECT_EQ(bright(MaskTruth::completed, Bits{1, 0}, Bits{0, 1}), 0b10);
 }
 
 TEST(TaskMask, NotEnabledSilencesWhatMustWait) {
-  EXPECT_EQ(bright_clauses(MaskTruth::not_enabled, Bits{0, 0}, Bits{1, 0}), 0b01);
-  EXPECT_EQ(bright_clauses(MaskTruth::not_enabled, Bits{0, 0}, Bits{1, 1}), 0b11);
+  EXPECT_EQ(bright(MaskTruth::not_enabled, Bits{0, 0}, Bits{1, 0}), 0b01);
+  EXPECT_EQ(bright(MaskTruth::not_enabled, Bits{0, 0}, Bits{1, 1}), 0b11);
 }
 
-TEST(TaskMask, CurrentKeepsOneClauseBright) {
-  EXPECT_EQ(bright_clauses(MaskTruth::current, Bits{0, 0}, Bits{1, 1}), 0b01);
-  EXPECT_EQ(bright_clauses(MaskTruth::current, Bits{0, 0}, Bits{0, 1}), 0b10);
-  EXPECT_EQ(bright_clauses(MaskTruth::current, Bits{1, 0}, Bits{0, 1}), 0b10);
+TEST(TaskMask, CurrentKeepsOneSubTaskBright) {
+  EXPECT_EQ(bright(MaskTruth::current, Bits{0, 0}, Bits{1, 1}), 0b01);
+  EXPECT_EQ(bright(MaskTruth::current, Bits{0, 0}, Bits{0, 1}), 0b10);
+  EXPECT_EQ(bright(MaskTruth::current, Bits{1, 0}, Bits{0, 1}), 0b10);
 }
 
 TEST(TaskMask, JoiningWordsStayBright) {

@@ -9,6 +9,7 @@
 
 #include "wordgaze/babyai/instruction.hpp"
 #include "wordgaze/babyai/level.hpp"
+#include "wordgaze/babyai/progress.hpp"
 #include "wordgaze/babyai/sentence.hpp"
 #include "wordgaze/babyai/task.hpp"
 #include "wordgaze/babyai/verifier.hpp"
@@ -76,7 +77,9 @@ class Environment {
 
   const babyai::Verifier& verifier() const { return verifier_; }
 
-  /// The vector c_t: one 0/1 per clause, in the order of the sentence. Empty in MiniGrid's own
+  /// The vector c_t and whose turn it is, in sub-tasks: what an agent is told.
+  babyai::Progress progress() const { return babyai::progress(task_, world_, verifier_); }
+  /// One 0/1 per clause, in the order of the sentence: completed so far. Empty in MiniGrid's own
   /// levels, which have no clauses.
   std::span<const std::uint8_t> completion() const { return verifier_.completion(); }
   /// One 0/1 per clause: not completed, and its turn has come.

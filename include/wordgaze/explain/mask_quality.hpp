@@ -15,7 +15,7 @@ struct MaskQuality {
 
   /// Adds a decision. Returns whether all words agree.
   bool add(std::span<const float> alpha, const babyai::Sentence& sentence,
-           std::uint8_t bright_clauses);
+           std::uint8_t bright_sub_tasks);
 
   double precision() const;
   double recall() const;
@@ -25,7 +25,7 @@ struct MaskQuality {
 /// How many steps after c_t has changed the mask agrees with the true one.
 class MaskDelay {
  public:
-  /// Adds a decision of a lane, in order. `completed` are the clauses that are done, as bits.
+  /// Adds a decision of a lane, in order. `completed` are the sub-tasks that are done, as bits.
   void add(std::size_t lane, bool begins, std::uint8_t completed, bool agrees);
 
   std::int64_t changes() const { return changes_; }

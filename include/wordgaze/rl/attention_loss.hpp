@@ -18,7 +18,7 @@ double attention_loss(const babyai::Sentence& sentence, std::uint8_t bright, con
   dlogits.setZero();
   double loss = 0;
   for (Index i = 0; i < sentence.length; ++i) {
-    const bool truth = model::is_bright(sentence.clause_of[static_cast<std::size_t>(i)], bright);
+    const bool truth = model::is_bright(sentence.sub_task_of[static_cast<std::size_t>(i)], bright);
     const auto a = static_cast<double>(alpha(i));
     loss -= std::log(std::max(truth ? a : 1 - a, 1e-12));
     dlogits(i) = static_cast<S>(scale * (a - (truth ? 1.0 : 0.0)) / sentence.length);

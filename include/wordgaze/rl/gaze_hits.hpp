@@ -4,7 +4,7 @@
 namespace wordgaze::rl {
 
 /// How often the brightest cell of M is a target that is in view: the earliest sign of whether an
-/// agent grounds its words. A target is an object of a clause whose turn it is.
+/// agent grounds its words. A target is an object of a sub-task whose turn it is.
 struct GazeHits {
   std::int64_t seen = 0, hit = 0;
 
@@ -21,10 +21,11 @@ struct GazeHits {
   void add(const Agent& agent, const Actor& actor, int lane, const env::Environment& env) {
     if (!agent.config.attention) return;
     const auto& attention = actor.cache().attention;
-    const auto turn = env.declarable();
+    const babyai::Progress progress = env.progress();
+    const auto turn = progress.enabled();
     bool in_view = false, brightest = false;
     for (std::size_t i = 0; i < turn.size(); ++i) {
-      const auto& object = env.instruction().clause[i].object;
+      const auto& object = progress.object(i);
       if (!turn[i] || !object.type || !object.color) continue;
       const int code = agent.alphabet.find(
           {static_cast<std::uint8_t>(*object.type), static_cast<std::uint8_t>(*object.color), 0});
