@@ -347,7 +347,9 @@ def write_page(folder):
             "says what goes wrong in `held-out` and why missions of one word mend it.", kinds_table(results))
     section("Levels of BabyAI from scratch", results.part("babyai") and
             "The levels of the reference as they are, without done actions. PutNextLocal alone has a "
-            "curriculum: at first most episodes start with the object in hand. The BabyAI 1.1 report "
+            "curriculum, at first most episodes start with the object in hand, and the Task Attention "
+            "Module, which is told whether it is in hand "
+            "([reading.md](reading.md#two-objects-in-one-clause)). The BabyAI 1.1 report "
             "(arXiv 2007.12770) counts episodes to 99 % on such levels as well; its table was not at hand "
             "when this page was made, so no figure of it stands here.", babyai_table(results))
     plot("babyai", learning_chart(results.part("babyai")),
