@@ -132,7 +132,7 @@ TEST(Progress, GoesByTheObjectInHand) {
 }
 
 TEST(Progress, CountsAnyOtherClauseAsOne) {
-  Play play("put the red ball next to the red key, then go to the red ball", {"B>.K", "...."});
+  Play play("put the red ball next to the red key, then pick up the red key", {"B>.K", "...."});
   EXPECT_EQ(numbers(play.in_sub_tasks().completion()), (std::vector{0, 0, 0}));
   EXPECT_EQ(numbers(play.in_sub_tasks().enabled()), (std::vector{1, 0, 0}));
   play({left, left, pickup, right, right, drop});

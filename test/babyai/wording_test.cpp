@@ -34,8 +34,8 @@ TEST(Wording, TellsWhichSubTaskAWordBelongsTo) {
 }
 
 TEST(Wording, SplitsPutNextIntoItsHalves) {
-  const Sentence s = worded("put the ball next to the key and open the door",
-                            {"#######", "#K.>Bc#", "#######"});
+  const Sentence s =
+      worded("put the ball next to the key and open the door", {"#######", "#K.>Bc#", "#######"});
   EXPECT_EQ(text(s), "put the ball next to the key and open the door");
   const std::vector<int> sub_tasks(s.sub_task_of.begin(), s.sub_task_of.begin() + s.length);
   EXPECT_EQ(sub_tasks, (std::vector{0, 0, 0, 1, 1, 1, 1, -1, 2, 2, 2}));
