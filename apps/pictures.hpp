@@ -12,7 +12,7 @@
 namespace wordgaze::apps {
 
 /// Draws the decisions of an episode that tell most: the first, the one at which a target comes
-/// into view, the one after a clause is completed, and the last.
+/// into view, the one after a sub-task is completed, and the last.
 class Painter final : public rl::Observer {
  public:
   Painter(std::filesystem::path folder, const env::Environment& environment)
@@ -25,8 +25,9 @@ class Painter final : public rl::Observer {
     before_ = environment_->world();
     comes_into_view_ = target_in_view && !seen_;
     seen_ = seen_ || target_in_view;
-    const auto completion = environment_->completion();
-    clause_completed_ = !std::ranges::equal(completion, completion_);
+    const babyai::Progress progress = environment_->progress();
+    const auto completion = progress.completion();
+    completed_ = !std::ranges::equal(completion, completion_);
     completion_.assign(completion.begin(), completion.end());
   }
 
@@ -34,12 +35,13 @@ class Painter final : public rl::Observer {
   void on_begin(const rl::EpisodeBegin& begin) override {
     episode_ = begin.episode;
     seen_ = false;
-    const auto completion = environment_->completion();
+    const babyai::Progress progress = environment_->progress();
+    const auto completion = progress.completion();
     completion_.assign(completion.begin(), completion.end());
   }
   void on_step(const rl::StepRecord& step) override {
     const bool last = step.terminated || step.truncated;
-    if (step.step > 0 && !comes_into_view_ && !clause_completed_ && !last) return;
+    if (step.step > 0 && !comes_into_view_ && !completed_ && !last) return;
     const auto image = draw::decision_figure(
         step,
         {.world = before_, .sentence = environment_->sentence(), .env_id = environment_->id()});
@@ -54,7 +56,7 @@ class Painter final : public rl::Observer {
   grid::World before_;
   std::int64_t episode_ = 0;
   std::vector<std::uint8_t> completion_;  // c_t of the last decision
-  bool seen_ = false, comes_into_view_ = false, clause_completed_ = false;
+  bool seen_ = false, comes_into_view_ = false, completed_ = false;
   int pictures_ = 0;
 };
 

@@ -29,7 +29,7 @@ void Transparency::on_decision(const rl::Decision& decision) {
   const auto& agent = what_if_.agent();
   ++decisions_;
   rl::look(agent, decision.actor, decision.lane, environment, sight_);
-  const Roles roles = roles_of(sight_.image, environment.instruction(), environment.declarable());
+  const Roles roles = roles_of(sight_.image, environment.progress());
   const auto saliency = what_if_.saliency(decision);
   add_map(decision, {saliency.gradient.data(), grid::kViewCells}, roles, gradient_);
   add_map(decision, {saliency.product.data(), grid::kViewCells}, roles, product_);

@@ -1,10 +1,7 @@
 #pragma once
-#include <vector>
-
-#include "wordgaze/babyai/instruction.hpp"
 #include "wordgaze/grid/observation.hpp"
 
-/// Views and missions with known answers.
+/// Views with known answers.
 namespace wordgaze::test {
 
 /// Empty cells, but for what was put there.
@@ -19,11 +16,5 @@ struct DrawnView {
     image[3 * cell + 1] = static_cast<std::uint8_t>(color);
   }
 };
-
-inline babyai::Instruction go_to(grid::Type type, grid::Color color) {
-  return babyai::single({.object = {.type = type, .color = color}});
-}
-
-inline std::vector<std::uint8_t> flags(std::initializer_list<std::uint8_t> list) { return list; }
 
 }  // namespace wordgaze::test

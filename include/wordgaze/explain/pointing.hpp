@@ -12,8 +12,8 @@ std::size_t brightest(std::span<const float> map);
 /// where such an object is in view. Beside it the chance that a random object in view would have
 /// been one.
 struct Pointing {
-  Mean target, target_chance;  ///< an object of a clause whose turn it is
-  Mean named, named_chance;    ///< an object of any clause
+  Mean target, target_chance;  ///< an object of a sub-task whose turn it is
+  Mean named, named_chance;    ///< an object of any sub-task
 
   void add(std::span<const float> map, const Roles& roles);
 };

@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-#include "wordgaze/babyai/instruction.hpp"
+#include "wordgaze/babyai/progress.hpp"
 #include "wordgaze/grid/cell.hpp"
 #include "wordgaze/grid/observation.hpp"
 
@@ -11,8 +11,8 @@ namespace wordgaze::explain {
 
 /// What a cell of the view means to the mission; docs/metrics.md.
 enum class Role : std::uint8_t {
-  target,      ///< an object of a clause whose turn it is
-  named,       ///< an object of another clause
+  target,      ///< an object of a sub-task whose turn it is
+  named,       ///< an object of another sub-task
   distractor,  ///< any other key, ball, box or door
   empty,       ///< empty cells and floor
   wall,
@@ -32,9 +32,8 @@ constexpr bool is_object(grid::Type type) {
 
 using Roles = std::array<Role, grid::kViewCells>;
 
-/// The 49 cells by their looks: places such as "on your left" are not asked for. `turn` has a 0/1 a
-/// clause, as Environment::declarable().
+/// The 49 cells by their looks: places such as "on your left" are not asked for.
 Roles roles_of(std::span<const std::uint8_t, grid::kImageBytes> image,
-               const babyai::Instruction& instruction, std::span<const std::uint8_t> turn);
+               const babyai::Progress& progress);
 
 }  // namespace wordgaze::explain
