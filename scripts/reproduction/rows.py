@@ -76,8 +76,10 @@ ROWS = [
     Row("held-out-partial-baseline", "kinds", "held-out-partial-baseline.toml", evaluations=(KINDS,),
         about="no attention, half of the missions by one word"),
 
-    *(Row(level, "babyai", f"babyai/{level}.toml")
-      for level in ("GoToRedBallGrey", "GoToRedBall", "GoToLocal", "PickupLoc", "PutNextLocal")),
+    *(Row(level, "babyai", f"babyai/{level}.toml", about=level)
+      for level in ("GoToRedBallGrey", "GoToRedBall", "GoToLocal", "PickupLoc")),
+    Row("PutNextLocal", "babyai", "babyai/PutNextLocal.toml", model="put-next",
+        about="PutNextLocal with the Task Attention Module"),
 
     *(Row(name, "ablation", f"ablations/{name}.toml", evaluations=(GRID,), about=about)
       for name, about in {
