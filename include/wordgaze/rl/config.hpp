@@ -59,7 +59,7 @@ struct PpoConfig {
         Setting{"mask_coefficient", &C::mask_coefficient, "weight of L_TA", 0, 100},
         Setting{
             "mask_truth", &C::mask_truth,
-            "words that the true mask silences: of completed clauses; also of those not enabled; "
+            "words that the true mask silences: of completed sub-tasks; also of those not enabled; "
             "also of all but the current one"},
     };
   }
