@@ -60,7 +60,8 @@ TEST_F(Eval, ReportsEverySetting) {
 
 /// The first row of a model's card: environment, policy and success in percent.
 std::smatch first_row(const std::string& card) {
-  static const std::regex row(R"(\| (Wordgaze-\S+) \| (sampled|greedy) \| \d+ \| ([\d.]+) % )");
+  static const std::regex row(
+      R"(\| ((?:Wordgaze|BabyAI)-\S+) \| (sampled|greedy) \| \d+ \| ([\d.]+) % )");
   std::smatch match;
   EXPECT_TRUE(std::regex_search(card, match, row)) << card;
   return match;
