@@ -95,5 +95,5 @@ ROWS = [
           "leaky-encoder": "leaky ReLU in the encoder (0.1)",
           "relu-encoder": "plain ReLU in the encoder"}.items()),
     Row("single-3x3", "ablation", "single-3x3.toml", evaluations=(GRID, GAZE),
-        about="encoder of two 3x3 convolutions"),
+        about="encoder of two 3x3 convolutions, 2M frames"),
 ]
