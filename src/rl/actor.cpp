@@ -1,5 +1,7 @@
 #include "wordgaze/rl/actor.hpp"
 
+#include <algorithm>
+
 namespace wordgaze::rl {
 
 Actor::Actor(const Agent& agent, int lanes) : agent_(&agent) {
@@ -23,6 +25,16 @@ void Actor::refresh() {
 }
 
 void Actor::begin(int lane, const babyai::Sentence& sentence) {
+  const auto& config = agent_->config;
+  const auto& of = sentence.sub_task_of;
+  const int sub_tasks =
+      1 + *std::max_element(of.begin(), of.begin() + std::max(1, sentence.length));
+  if ((config.task_attention || config.completion_input) && sub_tasks > config.clauses) {
+    throw std::invalid_argument(fmt::format(
+        "mission '{}' has {} sub-tasks, the completion vector of the agent {}; train with a larger "
+        "model.clauses",
+        babyai::text(sentence), sub_tasks, config.clauses));
+  }
   frames_.mission_of[static_cast<std::size_t>(lane)] = mission(sentence);
   frames_.keep(0, lane) = 0;
 }

@@ -58,7 +58,7 @@ struct Config {
         Setting{"task_size", &C::task_size, "hidden layer of the Task Attention Module", 1, 4096},
         Setting{"task_words", &C::task_words,
                 "longest mission, in words, that the Task Attention Module takes", 1, 73},
-        Setting{"clauses", &C::clauses, "length of the completion vector c_t, in sub-tasks", 1, 4},
+        Setting{"clauses", &C::clauses, "length of the completion vector c_t, in sub-tasks", 1, 8},
         Setting{"entropy_base", &C::entropy_base,
                 "base of the logarithm in the row entropies (eq. 2); 2.718281828 or 49", 1.1, 1e6},
         Setting{"gaze_exponent", &C::gaze_exponent, "p in s(M) = f + (1 - f) (M / max M)^p", 1, 16},

@@ -20,7 +20,8 @@ class Actor {
   /// Forgets the text features: after the weights changed. Lanes keep their memory and missions.
   void refresh();
 
-  /// A new episode in a lane: empty memory, another mission.
+  /// A new episode in a lane: empty memory, another mission. Throws std::invalid_argument for one
+  /// of more sub-tasks than the completion vector has entries, if the agent reads it.
   void begin(int lane, const babyai::Sentence& sentence);
 
   /// What the lane sees now, and its completion vector.
