@@ -32,7 +32,8 @@ TEST(Actor, TellsTheAgentWhatIsInItsHand) {
 TEST(Actor, RefusesMoreSubTasksThanItsCompletionVectorHolds) {
   env::Environment environment("BabyAI-PutNextLocal-v0");
   environment.reset(3);
-  const Agent small = agent_with(1, true), large = agent_with(2, true), blind = agent_with(1, false);
+  const Agent small = agent_with(1, true), large = agent_with(2, true),
+              blind = agent_with(1, false);
   EXPECT_THROW(Actor(small, 1).begin(0, environment.sentence()), std::invalid_argument);
   EXPECT_NO_THROW(Actor(large, 1).begin(0, environment.sentence()));
   EXPECT_NO_THROW(Actor(blind, 1).begin(0, environment.sentence()));  // it reads no c_t
