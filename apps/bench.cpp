@@ -10,7 +10,7 @@
 #include "wordgaze/io/config_file.hpp"
 #include "wordgaze/nn/categorical.hpp"
 #include "wordgaze/rl/alphabet.hpp"
-#include "wordgaze/rl/trainer.hpp"
+#include "wordgaze/training/trainer.hpp"
 
 namespace {
 

@@ -7,10 +7,10 @@
 #include "listeners.hpp"
 #include "pictures.hpp"
 #include "transparency_report.hpp"
+#include "wordgaze/evaluation/evaluator.hpp"
 #include "wordgaze/io/checkpoint.hpp"
 #include "wordgaze/io/file.hpp"
 #include "wordgaze/rl/alphabet.hpp"
-#include "wordgaze/rl/evaluator.hpp"
 
 namespace {
 

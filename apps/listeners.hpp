@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "wordgaze/rl/observer.hpp"
+#include "wordgaze/policy/observer.hpp"
 #if WORDGAZE_WITH_LCM
 #include "wordgaze/lcm/live_publisher.hpp"
 #include "wordgaze/lcm/log_writer.hpp"

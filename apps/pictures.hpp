@@ -6,8 +6,8 @@
 
 #include "wordgaze/draw/decision_figure.hpp"
 #include "wordgaze/nn/categorical.hpp"
+#include "wordgaze/policy/recorder.hpp"
 #include "wordgaze/rl/gaze_hits.hpp"
-#include "wordgaze/rl/recorder.hpp"
 
 namespace wordgaze::apps {
 

@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "wordgaze/env/environment.hpp"
-#include "wordgaze/rl/trainer.hpp"
+#include "wordgaze/training/trainer.hpp"
 
 namespace {
 

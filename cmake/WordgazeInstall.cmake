@@ -2,7 +2,8 @@
 include(CMakePackageConfigHelpers)
 set(wordgaze_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/wordgaze)
 
-install(TARGETS wordgaze_core wordgaze_env wordgaze_rl wordgaze_io wordgaze_draw
+install(TARGETS wordgaze_core wordgaze_env wordgaze_io wordgaze_policy wordgaze_evaluation
+        wordgaze_training wordgaze_draw
         EXPORT wordgazeTargets)
 install(EXPORT wordgazeTargets NAMESPACE wordgaze:: DESTINATION ${wordgaze_package_dir})
 if(WORDGAZE_WITH_LCM)

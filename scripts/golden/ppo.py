@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints test/data/rl/ppo.json for test/rl/reference_test.cpp: advantages, losses and their gradients.
+"""Prints test/data/training/ppo.json for test/training/reference_test.cpp: advantages, losses and their gradients.
 
 Advantages are sums over the future as their definition has them, not a recursion; the losses are
 written with torch.distributions and differentiated by PyTorch; the optimizer is PyTorch's Adam. Needs

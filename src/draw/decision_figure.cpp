@@ -85,7 +85,7 @@ Image heat_map(std::span<const float> values, double highest, ViewBytes view, Ti
 
 class Figure {
  public:
-  Figure(const rl::StepRecord& step, const Scene& scene)
+  Figure(const policy::StepRecord& step, const Scene& scene)
       : step_(step),
         scene_(scene),
         words_(static_cast<int>(step.word_weights.size())),
@@ -217,7 +217,7 @@ class Figure {
   std::string action_name() const { return name_of_action(static_cast<std::size_t>(step_.action)); }
 
   // In this order: each may depend on those before it.
-  const rl::StepRecord& step_;
+  const policy::StepRecord& step_;
   const Scene& scene_;
   int words_;
   std::vector<std::string> title_;
@@ -229,7 +229,7 @@ class Figure {
 
 }  // namespace
 
-Image decision_figure(const rl::StepRecord& step, const Scene& scene) {
+Image decision_figure(const policy::StepRecord& step, const Scene& scene) {
   const auto words = static_cast<std::size_t>(scene.sentence.length);
   require(step.word_weights.empty() || step.word_weights.size() == words,
           "decision_figure: {} word weights for a mission of {} words", step.word_weights.size(),

@@ -80,7 +80,9 @@ std::string meant(std::string_view written, Options options) {
 }
 
 const Option& find(Options options, std::string_view key, std::string_view where) {
-  const auto found = std::ranges::find(options, key, &Option::key);
+  const auto found = std::ranges::find_if(options, [&](const Option& option) {
+    return option.key == key || (!option.former_key.empty() && option.former_key == key);
+  });
   require(found != options.end(), "{}: unknown key '{}'; did you mean '{}'?", where, key,
           meant(key, options));
   return *found;
@@ -157,17 +159,27 @@ Value command_line_value(std::string_view text, Kind kind) {
   }
 }
 
-}  // namespace
-
-void parse_into(Options options, std::string_view toml, std::string_view source) {
-  toml::table table;
+toml::table parsed(std::string_view toml, std::string_view source) {
   try {
-    table = toml::parse(toml);
+    return toml::parse(toml);
   } catch (const toml::parse_error& error) {
     throw std::invalid_argument(fmt::format("{}:{}: not valid TOML: {}", source,
                                             error.source().begin.line, error.description()));
   }
-  assign_table(options, table, "", source);
+}
+
+}  // namespace
+
+void parse_into(Options options, std::string_view toml, std::string_view source) {
+  assign_table(options, parsed(toml, source), "", source);
+}
+
+void parse_section_into(Options options, std::string_view section, std::string_view toml,
+                        std::string_view source) {
+  const toml::table table = parsed(toml, source);
+  if (const toml::table* part = table[section].as_table()) {
+    assign_table(options, *part, "", source);
+  }
 }
 
 void assign_into(Options options, std::string_view assignment) {

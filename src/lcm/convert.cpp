@@ -20,7 +20,7 @@ void require_size(std::string_view field, std::size_t size, std::size_t expected
 
 }  // namespace
 
-episode_begin_t to_message(const rl::EpisodeBegin& record, const Origin& origin,
+episode_begin_t to_message(const policy::EpisodeBegin& record, const Origin& origin,
                            std::int64_t utime) {
   episode_begin_t message{};
   message.utime = utime;
@@ -40,7 +40,7 @@ episode_begin_t to_message(const rl::EpisodeBegin& record, const Origin& origin,
   return message;
 }
 
-step_t to_message(const rl::StepRecord& record, std::int64_t utime) {
+step_t to_message(const policy::StepRecord& record, std::int64_t utime) {
   const std::size_t words = record.word_weights.size();
   require_size("word_mask", record.word_mask.size(), words);
   require_size("word_attention", record.word_attention.size(), words * grid::kViewCells);
@@ -77,7 +77,7 @@ step_t to_message(const rl::StepRecord& record, std::int64_t utime) {
   return message;
 }
 
-episode_end_t to_message(const rl::EpisodeEnd& record, std::int64_t utime) {
+episode_end_t to_message(const policy::EpisodeEnd& record, std::int64_t utime) {
   return {.utime = utime,
           .episode_id = record.episode,
           .env_index = record.lane,
@@ -87,14 +87,14 @@ episode_end_t to_message(const rl::EpisodeEnd& record, std::int64_t utime) {
           .truncated = record.truncated};
 }
 
-metrics_t to_message(const rl::UpdateRecord& record, const Origin& origin, std::int64_t utime) {
+metrics_t to_message(const policy::UpdateRecord& record, const Origin& origin, std::int64_t utime) {
   metrics_t message{};
   message.utime = utime;
   message.run_id = origin.run_id;
   message.update = record.update;
   message.frames = record.frames;
   message.num_scalars = narrowed<std::int32_t>("num_scalars", std::ssize(record.scalars));
-  for (const rl::Scalar& scalar : record.scalars) {
+  for (const policy::Scalar& scalar : record.scalars) {
     message.name.emplace_back(scalar.name);
     message.value.push_back(scalar.value);
   }

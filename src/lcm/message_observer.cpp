@@ -21,25 +21,25 @@ MessageObserver::MessageObserver(Origin origin, int every)
   require(every > 0, "LCM: expected every k-th episode with k above 0; came {}", every);
 }
 
-void MessageObserver::on_begin(const rl::EpisodeBegin& record) {
+void MessageObserver::on_begin(const policy::EpisodeBegin& record) {
   if (!wants_episode(record.episode)) return;
   const std::int64_t now = now_utime();
   send(kEpisodeBeginChannel, encode(to_message(record, origin_, now)), now);
 }
 
-void MessageObserver::on_step(const rl::StepRecord& record) {
+void MessageObserver::on_step(const policy::StepRecord& record) {
   if (!wants_episode(record.episode)) return;
   const std::int64_t now = now_utime();
   send(kStepChannel, encode(to_message(record, now)), now);
 }
 
-void MessageObserver::on_end(const rl::EpisodeEnd& record) {
+void MessageObserver::on_end(const policy::EpisodeEnd& record) {
   if (!wants_episode(record.episode)) return;
   const std::int64_t now = now_utime();
   send(kEpisodeEndChannel, encode(to_message(record, now)), now);
 }
 
-void MessageObserver::on_update(const rl::UpdateRecord& record) {
+void MessageObserver::on_update(const policy::UpdateRecord& record) {
   const std::int64_t now = now_utime();
   send(kMetricsChannel, encode(to_message(record, origin_, now)), now);
 }

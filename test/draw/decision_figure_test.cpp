@@ -39,7 +39,7 @@ class DecisionFigure : public ::testing::Test {
   env::Environment env_;
   std::array<float, 7> logits_{1, 0, 3, 0, 0, 0, -9};
   std::vector<float> weights_, mask_, attention_, map_;
-  rl::StepRecord step_{.image = image_};
+  policy::StepRecord step_{.image = image_};
 };
 
 long pixels_of(const Image& image, Rgb color) {

@@ -4,7 +4,7 @@
 
 #include "wordgaze/io/config_file.hpp"
 #include "wordgaze/io/file.hpp"
-#include "wordgaze/rl/config.hpp"
+#include "wordgaze/training/config.hpp"
 
 namespace wordgaze::io {
 namespace {

@@ -78,7 +78,7 @@ TEST(Convert, StepArrivesWhole) {
 
 TEST(Convert, StepOfABaselineHasNoWords) {
   const ExampleRecords records;
-  rl::StepRecord record = records.step(12);
+  policy::StepRecord record = records.step(12);
   record.word_weights = record.word_mask = record.word_attention = record.attention_map = {};
   const auto message = through_lcm(to_message(record, 0));
   EXPECT_EQ(message.num_tokens, 0);
@@ -111,7 +111,7 @@ TEST(Convert, MetricsArriveWhole) {
 TEST(Convert, RefusesArraysThatDoNotFitTogether) {
   const ExampleRecords records;
   const auto refusal = [&](auto spoil) {
-    rl::StepRecord record = records.step(12);
+    policy::StepRecord record = records.step(12);
     spoil(record);
     return message_of<std::invalid_argument>([&] { to_message(record, 0); });
   };

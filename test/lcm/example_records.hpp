@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "wordgaze/rl/observer.hpp"
+#include "wordgaze/policy/observer.hpp"
 
 namespace wordgaze::lcm_io {
 
@@ -19,7 +19,7 @@ struct ExampleRecords {
   std::vector<float> mask{1, 1, 0.5f, 0, 1};
   std::vector<float> attention;
   std::vector<float> map = std::vector<float>(grid::kViewCells, 0.02f);
-  std::array<rl::Scalar, 2> scalars{{{"success_rate", 0.97}, {"entropy", 0.5}}};
+  std::array<policy::Scalar, 2> scalars{{{"success_rate", 0.97}, {"entropy", 0.5}}};
 
   ExampleRecords() {
     std::iota(image.begin(), image.end(), std::uint8_t{0});
@@ -30,7 +30,7 @@ struct ExampleRecords {
     }
   }
 
-  rl::EpisodeBegin begin(std::int64_t episode) const {
+  policy::EpisodeBegin begin(std::int64_t episode) const {
     return {.episode = episode,
             .lane = 3,
             .env_id = "Wordgaze-One-N8-K4-v0",
@@ -39,7 +39,7 @@ struct ExampleRecords {
             .mission = mission,
             .max_steps = 128};
   }
-  rl::StepRecord step(std::int64_t episode, int number = 0) const {
+  policy::StepRecord step(std::int64_t episode, int number = 0) const {
     return {.episode = episode,
             .lane = 3,
             .step = number,
@@ -59,7 +59,7 @@ struct ExampleRecords {
             .word_attention = attention,
             .attention_map = map};
   }
-  rl::EpisodeEnd end(std::int64_t episode) const {
+  policy::EpisodeEnd end(std::int64_t episode) const {
     return {.episode = episode,
             .lane = 3,
             .steps = 17,
@@ -67,7 +67,7 @@ struct ExampleRecords {
             .success = true,
             .truncated = false};
   }
-  rl::UpdateRecord update() const { return {.update = 7, .frames = 8960, .scalars = scalars}; }
+  policy::UpdateRecord update() const { return {.update = 7, .frames = 8960, .scalars = scalars}; }
 };
 
 }  // namespace wordgaze::lcm_io

@@ -38,7 +38,7 @@ std::vector<std::string> channels_of(const std::filesystem::path& path) {
 }
 
 /// Tells the observer of one episode with two steps.
-void play(rl::Observer& observer, std::int64_t episode) {
+void play(policy::Observer& observer, std::int64_t episode) {
   const ExampleRecords records;
   observer.on_begin(records.begin(episode));
   observer.on_step(records.step(episode, 0));

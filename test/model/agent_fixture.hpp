@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <utility>
 
 #include "support.hpp"
 #include "wordgaze/babyai/sentence.hpp"
@@ -32,7 +33,7 @@ inline model::Config small_config() {
   c.head_size = 4;
   c.task_size = 6;
   c.task_words = 14;
-  c.clauses = 2;
+  c.sub_tasks = 2;
   c.encoder_leak = 0.1;
   return c;
 }
@@ -40,19 +41,22 @@ inline model::Config small_config() {
 template <std::floating_point S>
 struct AgentFixture {
   model::Agent<S> agent;
-  typename model::Agent<S>::Params params;
-  typename model::Agent<S>::Tables tables;
+  typename model::Agent<S>::Weights weights;
+  typename model::Agent<S>::Params& params = weights.params;
   typename model::Agent<S>::Cache cache;
+  model::Outputs<S> outputs;
   model::Frames<S> frames;
   model::Missions missions;
 
+  AgentFixture(const AgentFixture&) = delete;  // params refers to weights
+  AgentFixture& operator=(const AgentFixture&) = delete;
   explicit AgentFixture(const model::Config& config, nn::SequenceShape shape = {3, 2})
       : agent{config, model::CellAlphabet::one_room()} {
-    params = agent.make_params();
+    weights = agent.make_weights();
     randomize_parameters(params);
     // Away from the ReLU's corner.
-    for (auto* bias : {&params.visual.bias, &params.patches.first.bias}) bias->array() += S(1);
-    tables = agent.make_tables();
+    for (auto* bias : {&params.vision.cells.bias, &params.vision.patches.first.bias})
+      bias->array() += S(1);
     frames.resize(config, shape);
     missions.index_of(sentence("go to the red ball"));
     missions.index_of(sentence("pick up the blue key , then go to the grey box"));
@@ -65,7 +69,7 @@ struct AgentFixture {
         frames.cells(c, n) =
             static_cast<std::uint8_t>(draw < 80 ? draw % 3 : draw % agent.alphabet.size());
       }
-      for (Index i = 0; i < config.clauses; ++i) {
+      for (Index i = 0; i < config.sub_tasks; ++i) {
         frames.completion(i, n) = static_cast<S>((n + i) % 2);
       }
     }
@@ -75,10 +79,41 @@ struct AgentFixture {
   }
 
   void forward() {
-    agent.update_all_tables(params, tables);
-    agent.encode_missions(params, tables, missions, cache);
-    agent.forward(params, tables, frames, missions, agent.text(cache), cache);
+    agent.refresh(weights);
+    forward_frames();
   }
+  void forward_frames() {
+    text.resize(agent.config.text_size, missions.size());
+    agent.encode_text(weights, missions, cache, text);
+    agent.forward(weights, frames, missions, text, cache, outputs);
+  }
+  /// The gradient of the weights from that of the outputs, by a team of `workers` that all see the
+  /// same frames and are asked for an equal part each.
+  typename model::Agent<S>::Params gradient(const model::Outputs<S>& asked, int workers = 1) {
+    auto grads = agent.make_gradients(workers);
+    model::Outputs<S> part = asked;
+    for (auto* m : {&part.logits, &part.values, &part.mask}) *m /= static_cast<S>(workers);
+    for (auto& own : grads) {
+      nn::set_zero(own);
+      forward_frames();
+      agent.backward(weights, frames, missions, outputs, part, cache, own);
+    }
+    Team team(workers);
+    agent.reduce(weights, grads, team);
+    return std::move(grads.front().params);
+  }
+  /// Random numbers in the place of a loss's gradient.
+  model::Outputs<S> random_gradient() const {
+    const Index n = frames.shape.columns();
+    model::Outputs<S> asked;
+    asked.resize(agent.config, n);
+    randomize(asked.logits);
+    randomize(asked.values);
+    randomize(asked.mask, 0.3);
+    return asked;
+  }
+
+  Matrix<S> text;
 };
 
 }  // namespace wordgaze::test

@@ -1,8 +1,9 @@
-#include "wordgaze/model/agent_impl.hpp"
+#include "wordgaze/model/agent.hpp"
 
 #include <gtest/gtest.h>
 
 #include "model/agent_fixture.hpp"
+#include "wordgaze/model/reference.hpp"
 #include "wordgaze/nn/gradient_check.hpp"
 
 template struct wordgaze::model::Agent<double>;
@@ -38,175 +39,48 @@ Config with_patches(Config c) {
   return c;
 }
 
-/// The agent written a second time from the equations: one-hot cells, all 49 of them, one frame and
-/// one word at a time, no tables.
-struct PlainTwin {
-  const AgentFixture<double>& f;
-
-  Vector<double> logistic(const Vector<double>& v) const { return 1 / (1 + (-v.array()).exp()); }
-
-  Vector<double> text(const babyai::Sentence& s) const {
-    const auto& p = f.params.text;
-    const Index g = p.hidden_weight.cols();
-    Vector<double> h = Vector<double>::Zero(g);
-    for (const auto word : s) {
-      const Vector<double> x = p.input_weight * f.params.words.col(word) + p.bias;
-      const Vector<double> u = p.hidden_weight * h;
-      const Vector<double> r = logistic(x.head(g) + u.head(g));
-      const Vector<double> z = logistic(x.segment(g, g) + u.segment(g, g));
-      const Vector<double> n =
-          (x.tail(g).array() + r.array() * (u.tail(g) + p.candidate_bias).array()).tanh();
-      h = (1 - z.array()) * n.array() + z.array() * h.array();
-    }
-    return h;
-  }
-
-  /// A convolution with square kernels of 1x1 or 3x3, zeros around the view, then the leaky ReLU.
-  Matrix<double> convolve(const Matrix<double>& weight, const Vector<double>& bias,
-                          const Matrix<double>& view) const {
-    const Index in = view.rows(), reach = weight.cols() == in ? 0 : 1;
-    Matrix<double> out(weight.rows(), 49);
-    for (Index a = 0; a < 7; ++a) {
-      for (Index b = 0; b < 7; ++b) {
-        Vector<double> sum = bias;
-        Index tap = 0;
-        for (Index da = -reach; da <= reach; ++da) {
-          for (Index db = -reach; db <= reach; ++db, ++tap) {
-            if (a + da < 0 || a + da > 6 || b + db < 0 || b + db > 6) continue;
-            sum += weight.middleCols(tap * in, in) * view.col((a + da) * 7 + b + db);
-          }
-        }
-        out.col(a * 7 + b) = sum.cwiseMax(f.agent.config.encoder_leak * sum);
-      }
-    }
-    return out;
-  }
-
-  /// O~ of a frame.
-  Matrix<double> encode(Index n) const {
-    Matrix<double> view = Matrix<double>::Zero(20, 49);
-    for (Index cell = 0; cell < 49; ++cell) {
-      const auto code = f.agent.alphabet[f.frames.cells(cell, n)];
-      view(code.type, cell) = view(11 + code.color, cell) = view(17 + code.state, cell) = 1;
-    }
-    const auto& p = f.params;
-    if (f.agent.config.encoder == Encoder::cell) {
-      return convolve(p.visual.weight, p.visual.bias, view);
-    }
-    return convolve(p.patches.second.weight, p.patches.second.bias,
-                    convolve(p.patches.first.weight, p.patches.first.bias, view));
-  }
-
-  /// Attention over the view: the map M, or nothing without attention.
-  Vector<double> scale(Index n, const Matrix<double>& encoding, const babyai::Sentence& s) const {
-    const Config& c = f.agent.config;
-    if (!c.attention) return Vector<double>::Ones(49);
-    Matrix<double> maps(s.length, 49);
-    Vector<double> entropy(s.length);
-    for (int i = 0; i < s.length; ++i) {
-      const Vector<double> q = f.params.attention.query * f.params.words.col(s.words[i]);
-      for (Index cell = 0; cell < 49; ++cell) {
-        const Vector<double> k = f.params.attention.key * encoding.col(cell);
-        maps(i, cell) = std::exp(q.dot(k) / std::sqrt(static_cast<double>(c.key_size)));
-      }
-      maps.row(i) /= maps.row(i).sum();
-      entropy(i) =
-          -(maps.row(i).array() * maps.row(i).array().log()).sum() / std::log(c.entropy_base);
-    }
-    Vector<double> w = (-entropy.array()).exp();
-    w /= w.sum();
-    if (c.task_attention) {
-      Vector<double> x = Vector<double>::Zero(f.params.task.hidden.weight.cols());
-      for (int i = 0; i < s.length; ++i) {
-        const Index row = c.task_places ? i * c.word_size : 0;
-        x.segment(row, c.word_size) += w(i) * f.params.words.col(s.words[i]);
-      }
-      x.tail(c.clauses) = f.frames.completion.col(n);
-      const auto& t = f.params.task;
-      const Vector<double> hidden = (t.hidden.weight * x + t.hidden.bias).cwiseMax(0);
-      const Vector<double> alpha = logistic(t.output.weight * hidden + t.output.bias);
-      w.array() *= alpha.head(s.length).array();
-    }
-    const Vector<double> gaze = maps.transpose() * w;
-    return c.gaze_floor +
-           (1 - c.gaze_floor) * (gaze.array() / (gaze.maxCoeff() + 1e-6)).pow(c.gaze_exponent);
-  }
-
-  /// Logits over value, [8, N].
-  Matrix<double> run() const {
-    const auto& x = f.frames;
-    const Config& c = f.agent.config;
-    const Index hidden = c.memory_size;
-    Matrix<double> out(8, x.shape.columns());
-    for (Index b = 0; b < x.shape.batch; ++b) {
-      Vector<double> h = x.start.h.col(b), memory = x.start.c.col(b);
-      for (Index t = 0; t < x.shape.steps; ++t) {
-        const Index n = x.shape.column(t, b);
-        if (x.keep(0, n) == 0) h.setZero(), memory.setZero();
-        const auto& s = f.missions[x.mission_of[static_cast<std::size_t>(n)]];
-        const Matrix<double> encoding = encode(n);
-        const Matrix<double> filtered = encoding * scale(n, encoding, s).asDiagonal();
-        const auto& m = f.params.memory;
-        Vector<double> z = m.input_weight * filtered.reshaped() + m.hidden_weight * h + m.bias;
-        if (c.completion_input) z += f.params.completion * x.completion.col(n);
-        memory = logistic(z.segment(hidden, hidden)).array() * memory.array() +
-                 logistic(z.head(hidden)).array() * z.segment(2 * hidden, hidden).array().tanh();
-        h = logistic(z.tail(hidden)).array() * memory.array().tanh();
-        Vector<double> features(hidden + c.text_size);
-        features << h, text(s);
-        const auto head = [&](const auto& p) -> Vector<double> {
-          return p.output.weight *
-                     (p.hidden.weight * features + p.hidden.bias).array().tanh().matrix() +
-                 p.output.bias;
-        };
-        out.col(n) << head(f.params.actor), head(f.params.critic);
-      }
-    }
-    return out;
-  }
-};
-
 struct AgentVariant : testing::TestWithParam<Config> {
   AgentFixture<double> f{GetParam()};
 };
 
 TEST_P(AgentVariant, EqualsItsPlainTwin) {
   f.forward();
-  const Matrix<double> twin = PlainTwin{f}.run();
-  EXPECT_TRUE(f.cache.logits().isApprox(twin.topRows(7), 1e-12));
-  EXPECT_TRUE(f.cache.values().isApprox(twin.bottomRows(1), 1e-12));
+  const Matrix<double> twin = ReferenceAgent<double>{f.agent, f.params}.run(f.frames, f.missions);
+  EXPECT_TRUE(f.outputs.logits.isApprox(twin.topRows(7), 1e-12));
+  EXPECT_TRUE(f.outputs.values.isApprox(twin.bottomRows(1), 1e-12));
 }
 
 TEST_P(AgentVariant, GradientsMatchCentralDifferences) {
-  const Index n = f.frames.shape.columns();
-  const Matrix<double> dlogits = random_matrix(7, n), dvalues = random_matrix(1, n);
-  const Matrix<double> dmask = random_matrix(f.agent.config.task_words, n, 0.3);
+  const Outputs<double> asked = f.random_gradient();
   const auto loss = [&] {
     f.forward();
-    double total =
-        f.cache.logits().cwiseProduct(dlogits).sum() + f.cache.values().cwiseProduct(dvalues).sum();
-    if (f.agent.config.task_attention) {
-      // A loss on the logits of alpha, as L_TA is.
-      const auto alpha = f.cache.task.alpha.array();
-      total += ((alpha / (1 - alpha)).log() * dmask.array()).sum();
-    }
-    return total;
+    // Of the mask, a loss on the logits of alpha, as L_TA is.
+    const auto alpha = f.outputs.mask.array();
+    return f.outputs.logits.cwiseProduct(asked.logits).sum() +
+           f.outputs.values.cwiseProduct(asked.values).sum() +
+           ((alpha / (1 - alpha)).log() * asked.mask.array()).sum();
   };
-  loss();
-  auto grads = nn::zeros_like(f.params);
-  auto dtables = f.agent.make_tables();
-  if (f.agent.config.task_attention) f.cache.task.dlogits = dmask;
-  f.agent.backward(f.params, f.tables, f.frames, f.missions, dlogits, dvalues, f.cache, grads,
-                   dtables);
-  f.agent.all_tables_backward(f.params, f.tables, dtables, grads);
+  f.agent.refresh(f.weights);
+  const auto grads = f.gradient(asked);
   const nn::GradientError error = nn::check_gradients(f.params, grads, loss);
   EXPECT_LE(error.worst, 1e-6) << error.where;
 }
 
+TEST_P(AgentVariant, WorkersSumUpToTheSameGradient) {
+  f.agent.refresh(f.weights);
+  const Outputs<double> asked = f.random_gradient();
+  const auto alone = f.gradient(asked), three = f.gradient(asked, 3);
+  nn::for_each_parameter(
+      [](const nn::Path& path, const auto& a, const auto& b) {
+        EXPECT_TRUE(a.isApprox(b, 1e-10)) << path.str();
+        EXPECT_TRUE(a.size() == 0 || a.cwiseAbs().maxCoeff() > 0) << path.str();
+      },
+      alone, three);
+}
+
 TEST_P(AgentVariant, PaddingBehindAMissionChangesNothing) {
   f.forward();
-  const Matrix<double> logits = f.cache.logits();
-  const Matrix<double> values = f.cache.values();
+  const Outputs<double> before = f.outputs;
   // A longer mission in the batch makes every other one padded; foreign words behind the end too.
   f.missions.index_of(test::sentence("pick up the red key and go to the red box after you"));
   for (auto& s : f.missions.sentences) {
@@ -214,22 +88,23 @@ TEST_P(AgentVariant, PaddingBehindAMissionChangesNothing) {
   }
   f.forward();
   // Sums over columns of another height may round differently: the last bit is free.
-  EXPECT_TRUE(logits.isApprox(f.cache.logits(), 1e-14));
-  EXPECT_TRUE(values.isApprox(f.cache.values(), 1e-14));
+  EXPECT_TRUE(before.logits.isApprox(f.outputs.logits, 1e-14));
+  EXPECT_TRUE(before.values.isApprox(f.outputs.values, 1e-14));
 }
 
 TEST_P(AgentVariant, AllocatesNothingAfterTheFirstPass) {
   AgentFixture<double> g(GetParam(), {4, 8});
-  const Matrix<double> dlogits = Matrix<double>::Ones(7, 32), dvalues = Matrix<double>::Ones(1, 32);
-  auto grads = nn::zeros_like(g.params);
-  auto dtables = g.agent.make_tables();
+  const Outputs<double> asked = g.random_gradient();
+  auto grads = g.agent.make_gradients(1);
+  Team team(1);
   const auto pass = [&] {
-    g.forward();
-    if (g.agent.config.task_attention) g.cache.task.dlogits.setConstant(0.1);
-    g.agent.backward(g.params, g.tables, g.frames, g.missions, dlogits, dvalues, g.cache, grads,
-                     dtables);
-    g.agent.all_tables_backward(g.params, g.tables, dtables, grads);
+    g.agent.refresh(g.weights, team);
+    g.agent.encode_text(g.weights, g.missions, g.cache, g.text);
+    g.agent.forward(g.weights, g.frames, g.missions, g.text, g.cache, g.outputs);
+    g.agent.backward(g.weights, g.frames, g.missions, g.outputs, asked, g.cache, grads.front());
+    g.agent.reduce(g.weights, grads, team);
   };
+  g.forward();
   pass();
   Eigen::internal::set_is_malloc_allowed(false);
   pass();
@@ -263,13 +138,14 @@ TEST(Agent, AttentionIsADistribution) {
     const int length = f.missions[f.frames.mission_of[static_cast<std::size_t>(n)]].length;
     for (int i = 0; i < length; ++i) {
       double sum = 0;
-      for (Index c = 0; c < 49; ++c) sum += a.maps(f.agent.kind(f.frames.cells, c, n), a.map(n, i));
+      for (Index c = 0; c < 49; ++c)
+        sum += a.maps(f.agent.entry(f.frames.cells, c, n), a.map(n, i));
       EXPECT_NEAR(sum, 1, 1e-12);
     }
     EXPECT_NEAR(a.weights.col(n).sum(), 1, 1e-12);
     EXPECT_EQ(a.weights.col(n).tail(a.weights.rows() - length).cwiseAbs().sum(), 0);
-    EXPECT_GT(f.cache.task.alpha.minCoeff(), 0);
-    EXPECT_LT(f.cache.task.alpha.maxCoeff(), 1);
+    EXPECT_GT(f.outputs.mask.minCoeff(), 0);
+    EXPECT_LT(f.outputs.mask.maxCoeff(), 1);
   }
 }
 
@@ -281,9 +157,9 @@ TEST(Agent, SurvivesScoresFarBelowThoseOutOfView) {
   for (Index i = 0; i < f.frames.cells.size(); ++i) {
     if (f.frames.cells.data()[i] == hidden_code) f.frames.cells.data()[i] = 1;
   }
-  f.tables.attention.scores.row(hidden_code).setConstant(1000);
-  f.agent.forward(f.params, f.tables, f.frames, f.missions, f.agent.text(f.cache), f.cache);
-  EXPECT_TRUE(f.cache.logits().allFinite());
+  f.weights.tables.vision.cells.scores.row(hidden_code).setConstant(1000);
+  f.forward_frames();
+  EXPECT_TRUE(f.outputs.logits.allFinite());
   EXPECT_GT(f.cache.attention.scale.colwise().maxCoeff().minCoeff(), 0.99);
 }
 

@@ -1,9 +1,6 @@
-#include "wordgaze/model/initialize.hpp"
-#include "model/agent_fixture.hpp"
-
 #include <gtest/gtest.h>
 
-#include "wordgaze/model/agent_impl.hpp"
+#include "model/agent_fixture.hpp"
 
 namespace wordgaze::model {
 namespace {
@@ -13,15 +10,14 @@ TEST(Initialize, EveryWordPrefersObjectsByThePrior) {
   config.object_prior = 3;
   const Agent<double> agent{config, CellAlphabet::everything()};
   core::Rng rng(1);
-  auto params = initialize(agent, rng);
+  auto params = agent.initialize(rng);
   // The prior alone: entry 0 of queries and keys, channel 0 of the encoding.
   params.attention.query.bottomRows(config.key_size - 1).setZero();
-  auto tables = agent.make_tables();
-  agent.update_tables(params, tables);
+  const auto weights = agent.make_weights(params);
   for (int k = 0; k < agent.alphabet.size(); ++k) {
     const bool object = agent.alphabet[k].type >= 5 && agent.alphabet[k].type <= 7;
     for (int word = 1; word < babyai::kVocabularySize; ++word) {
-      EXPECT_NEAR(tables.attention.scores(k, word), object ? 3 : 0, 1e-12);
+      EXPECT_NEAR(weights.tables.vision.cells.scores(k, word), object ? 3 : 0, 1e-12);
     }
   }
 }
@@ -29,7 +25,7 @@ TEST(Initialize, EveryWordPrefersObjectsByThePrior) {
 TEST(Initialize, TheSameStreamGivesTheSameWeights) {
   const Agent<float> agent{Config{}, CellAlphabet::one_room()};
   core::Rng a(5), b(5), c(6);
-  const auto x = initialize(agent, a), y = initialize(agent, b), z = initialize(agent, c);
+  const auto x = agent.initialize(a), y = agent.initialize(b), z = agent.initialize(c);
   EXPECT_EQ(x.memory.input_weight, y.memory.input_weight);
   EXPECT_NE(x.memory.input_weight, z.memory.input_weight);
 }
@@ -39,7 +35,7 @@ TEST(Initialize, AllWordsAreBrightAtFirst) {
   config.task_attention = true;
   const Agent<float> agent{config, CellAlphabet::one_room()};
   core::Rng rng(1);
-  EXPECT_EQ(initialize(agent, rng).task.output.bias.minCoeff(), 2);
+  EXPECT_EQ(agent.initialize(rng).task.output.bias.minCoeff(), 2);
 }
 
 }  // namespace

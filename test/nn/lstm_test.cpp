@@ -20,31 +20,30 @@ struct LstmTest : testing::Test {
   Matrix<double> x = random_matrix(kIn, shape.columns());
   Matrix<double> keep = Matrix<double>::Ones(1, shape.columns());
   Matrix<double> dh = random_matrix(kHidden, shape.columns());
+  Matrix<double> h = Matrix<double>(kHidden, shape.columns());
+  Matrix<double> dproduct = Matrix<double>(4 * kHidden, shape.columns());
 
   void SetUp() override {
-    L::resize(params, kIn, kHidden);
+    L::resize(kIn, kHidden, params);
     test::randomize_parameters(params);
     start = {random_matrix(kHidden, shape.batch), random_matrix(kHidden, shape.batch)};
     cache.resize(kHidden, shape);
     keep(0, shape.column(2, 1)) = 0;
     keep(0, shape.column(3, 0)) = 0;
   }
-  void forward() {
-    cache.gates.noalias() = params.input_weight * x;
-    L::forward(params, shape, keep, start, cache);
-  }
+  void forward() { L::forward(params, shape, params.input_weight * x, keep, start, cache, h); }
   double loss() {
     forward();
-    return cache.h.cwiseProduct(dh).sum();
+    return h.cwiseProduct(dh).sum();
   }
 };
 
 TEST_F(LstmTest, GradientsMatchCentralDifferences) {
   loss();
   L::Params grads = zeros_like(params);
-  L::backward(params, shape, keep, dh, cache, grads);
-  grads.input_weight.noalias() += cache.dgates * x.transpose();
-  const Matrix<double> dx = params.input_weight.transpose() * cache.dgates;
+  L::backward(params, shape, keep, dh, cache, grads, dproduct);
+  grads.input_weight.noalias() += dproduct * x.transpose();
+  const Matrix<double> dx = params.input_weight.transpose() * dproduct;
   GradientError error = check_gradients(params, grads, [&] { return loss(); });
   check_leaf(
       "x", x, dx, [&] { return loss(); }, error);
@@ -54,11 +53,11 @@ TEST_F(LstmTest, GradientsMatchCentralDifferences) {
 TEST_F(LstmTest, ForgetsAtEpisodeStart) {
   forward();
   const Index column = shape.column(3, 0);
-  const Matrix<double> h = cache.h.col(column), c = cache.cell.col(column);
+  const Matrix<double> before = h.col(column), c = cache.cell.col(column);
   start.h.setConstant(7);
   x.leftCols(column).setConstant(-3);
   forward();
-  EXPECT_EQ(h, cache.h.col(column));
+  EXPECT_EQ(before, h.col(column));
   EXPECT_EQ(c, cache.cell.col(column));
 }
 
@@ -72,22 +71,25 @@ TEST_F(LstmTest, OneStepIsTheTextbookCell) {
     const double g = std::tanh(z(2 * kHidden + j)), o = sigmoid(z(3 * kHidden + j));
     const double c = f * start.c(j, 0) + i * g;
     EXPECT_NEAR(cache.cell(j, 0), c, 1e-14);
-    EXPECT_NEAR(cache.h(j, 0), o * std::tanh(c), 1e-14);
+    EXPECT_NEAR(h(j, 0), o * std::tanh(c), 1e-14);
   }
 }
 
 TEST_F(LstmTest, ChunksFromStoredStateEqualTheWholeSequence) {
   forward();
-  const Matrix<double> whole = cache.h;
+  const Matrix<double> whole = h;
   const SequenceShape half{2, shape.batch};
   L::Cache part;
   part.resize(kHidden, half);
   L::State state = start;
   for (Index t = 0; t < 4; t += 2) {
-    part.gates.noalias() = params.input_weight * x.middleCols(t * shape.batch, half.columns());
-    L::forward(params, half, keep.middleCols(t * shape.batch, half.columns()), state, part);
-    EXPECT_TRUE(part.h.isApprox(whole.middleCols(t * shape.batch, half.columns()), 1e-14));
-    state.h = half.block(part.h, 1);
+    const auto columns = [&](const auto& m) {
+      return m.middleCols(t * shape.batch, half.columns());
+    };
+    Matrix<double> part_h(kHidden, half.columns());
+    L::forward(params, half, params.input_weight * columns(x), columns(keep), state, part, part_h);
+    EXPECT_TRUE(part_h.isApprox(whole.middleCols(t * shape.batch, half.columns()), 1e-14));
+    state.h = half.block(part_h, 1);
     state.c = half.block(part.cell, 1);
   }
 }

@@ -13,7 +13,7 @@ using Params = nn::Linear<double>::Params;
 
 Params random_params() {
   Params p;
-  nn::Linear<double>::resize(p, 2, 3);
+  nn::Linear<double>::resize(2, 3, p);
   test::randomize_parameters(p);
   return p;
 }

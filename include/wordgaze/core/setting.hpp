@@ -24,11 +24,14 @@ struct Setting {
   std::string_view description;
   double lowest = -std::numeric_limits<double>::infinity();  ///< inclusive, numbers only
   double highest = std::numeric_limits<double>::infinity();  ///< inclusive, numbers only
+  std::string_view formerly{};  ///< its name in older files, which are still read
 };
 template <class O, class M>
 Setting(const char*, M O::*, const char*) -> Setting<O, M>;
 template <class O, class M, class L, class H>
 Setting(const char*, M O::*, const char*, L, H) -> Setting<O, M>;
+template <class O, class M, class L, class H>
+Setting(const char*, M O::*, const char*, L, H, const char*) -> Setting<O, M>;
 
 template <class T>
 concept Section = requires {

@@ -4,7 +4,7 @@
 #include "wordgaze/babyai/sentence.hpp"
 #include "wordgaze/draw/image.hpp"
 #include "wordgaze/grid/world.hpp"
-#include "wordgaze/rl/observer.hpp"
+#include "wordgaze/policy/observer.hpp"
 
 namespace wordgaze::draw {
 
@@ -20,6 +20,6 @@ struct Scene {
 /// the word looks (A), how much it counts (w) and what the task mask leaves of it (alpha, when a
 /// mask dims some word). Without text-visual attention the maps are left out. Throws
 /// std::invalid_argument when the record's arrays do not fit the sentence.
-Image decision_figure(const rl::StepRecord& step, const Scene& scene);
+Image decision_figure(const policy::StepRecord& step, const Scene& scene);
 
 }  // namespace wordgaze::draw

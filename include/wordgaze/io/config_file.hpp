@@ -17,6 +17,8 @@ namespace wordgaze::io {
 
 namespace detail {
 void parse_into(std::span<const Option> options, std::string_view toml, std::string_view source);
+void parse_section_into(std::span<const Option> options, std::string_view section,
+                        std::string_view toml, std::string_view source);
 void assign_into(std::span<const Option> options, std::string_view assignment);
 std::string toml_text(std::span<const Option> options);
 std::string markdown_text(std::span<const Option> options);
@@ -27,6 +29,14 @@ std::vector<std::string> differences(std::span<const Option> a, std::span<const 
 template <Section C>
 C parse_config(std::string_view toml, std::string_view source, C defaults = {}) {
   detail::parse_into(options_of(defaults), toml, source);
+  return defaults;
+}
+
+/// `defaults` with what one [section] of `toml` says; the others are somebody else's.
+template <Section C>
+C parse_section(std::string_view toml, std::string_view section, std::string_view source,
+                C defaults = {}) {
+  detail::parse_section_into(options_of(defaults), section, toml, source);
   return defaults;
 }
 

@@ -29,6 +29,7 @@ struct Option {
   Kind kind = Kind::section;
   double lowest = 0, highest = 0;           ///< inclusive; integer and real
   std::vector<std::string_view> choices{};  ///< the allowed names; choice
+  std::string former_key{};                 ///< in older files; empty: none
   std::function<std::string()> text{};      ///< the current value, as TOML writes it
   std::function<bool(const Value&)>
       assign{};  ///< takes a value of this kind; false: it does not fit
@@ -100,7 +101,9 @@ void collect(C& config, const std::string& prefix, std::vector<Option>& options)
     return Option{.key = prefix + std::string(setting.name),
                   .description = setting.description,
                   .lowest = setting.lowest,
-                  .highest = setting.highest};
+                  .highest = setting.highest,
+                  .former_key = setting.formerly.empty() ? std::string()
+                                                         : prefix + std::string(setting.formerly)};
   };
   // Sections after plain settings: in TOML, a key belongs to the last [section] before it.
   each_setting([&](const auto& setting) {

@@ -8,7 +8,7 @@
 #include "wordgaze/episode_end_t.hpp"
 #include "wordgaze/lcm/origin.hpp"
 #include "wordgaze/metrics_t.hpp"
-#include "wordgaze/rl/observer.hpp"
+#include "wordgaze/policy/observer.hpp"
 #include "wordgaze/step_t.hpp"
 
 /// Records of training and evaluation as LCM messages (lcmtypes/). `utime` is the time of sending
@@ -17,11 +17,11 @@
 /// they throw std::invalid_argument when sizes or ranges are wrong.
 namespace wordgaze::lcm_io {
 
-episode_begin_t to_message(const rl::EpisodeBegin& record, const Origin& origin,
+episode_begin_t to_message(const policy::EpisodeBegin& record, const Origin& origin,
                            std::int64_t utime);
-step_t to_message(const rl::StepRecord& record, std::int64_t utime);
-episode_end_t to_message(const rl::EpisodeEnd& record, std::int64_t utime);
-metrics_t to_message(const rl::UpdateRecord& record, const Origin& origin, std::int64_t utime);
+step_t to_message(const policy::StepRecord& record, std::int64_t utime);
+episode_end_t to_message(const policy::EpisodeEnd& record, std::int64_t utime);
+metrics_t to_message(const policy::UpdateRecord& record, const Origin& origin, std::int64_t utime);
 
 /// The bytes of a message as they go into a log or over the network.
 template <class Message>

@@ -4,18 +4,18 @@
 #include <vector>
 
 #include "wordgaze/lcm/origin.hpp"
-#include "wordgaze/rl/observer.hpp"
+#include "wordgaze/policy/observer.hpp"
 
 namespace wordgaze::lcm_io {
 
 /// Turns what it hears into encoded messages; where they go is up to the derived class.
-class MessageObserver : public rl::Observer {
+class MessageObserver : public policy::Observer {
  public:
   bool wants_episode(std::int64_t episode) final { return episode % every_ == 0; }
-  void on_begin(const rl::EpisodeBegin& record) final;
-  void on_step(const rl::StepRecord& record) final;
-  void on_end(const rl::EpisodeEnd& record) final;
-  void on_update(const rl::UpdateRecord& record) final;
+  void on_begin(const policy::EpisodeBegin& record) final;
+  void on_step(const policy::StepRecord& record) final;
+  void on_end(const policy::EpisodeEnd& record) final;
+  void on_update(const policy::UpdateRecord& record) final;
 
  protected:
   /// Of the episodes, only every `every`-th is heard. Throws std::invalid_argument when it is not

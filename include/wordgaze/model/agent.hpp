@@ -1,203 +1,363 @@
 #pragma once
-#include "wordgaze/babyai/vocabulary.hpp"
-#include "wordgaze/grid/action.hpp"
-#include "wordgaze/model/config.hpp"
-#include "wordgaze/model/filtered_input.hpp"
-#include "wordgaze/model/filtered_map.hpp"
+#include <algorithm>
+#include <concepts>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "wordgaze/core/team.hpp"
+#include "wordgaze/model/design.hpp"
+#include "wordgaze/model/frames.hpp"
 #include "wordgaze/model/head.hpp"
-#include "wordgaze/model/patch_encoder.hpp"
+#include "wordgaze/model/missions.hpp"
+#include "wordgaze/model/outputs.hpp"
 #include "wordgaze/model/task_attention.hpp"
 #include "wordgaze/model/text_encoder.hpp"
 #include "wordgaze/model/text_visual_attention.hpp"
-#include "wordgaze/model/visual_encoder.hpp"
+#include "wordgaze/model/vision.hpp"
 #include "wordgaze/nn/lstm.hpp"
 
 namespace wordgaze::model {
 
-/// The agent's input: `shape.batch` sequences of `shape.steps` frames, one column a frame,
-/// time-major.
-template <std::floating_point S>
-struct Frames {
-  nn::SequenceShape shape;
-  CellMatrix cells;                   ///< [49, T*B] code indices of the alphabet
-  std::vector<int> mission_of;        ///< [T*B] index into Missions
-  Matrix<S> keep;                     ///< [1, T*B] 0 where an episode begins, else 1
-  Matrix<S> completion;               ///< [clauses, T*B] c_t; 0 for clauses that do not exist
-  typename nn::Lstm<S>::State start;  ///< memory before the first step
+/// The group of parameters that learns at the second of the two rates (nn::Field::group).
+inline constexpr int kTaskGroup = 1;
 
-  void resize(const Config& config, nn::SequenceShape new_shape) {
-    shape = new_shape;
-    cells.setZero(grid::kViewCells, shape.columns());
-    mission_of.assign(static_cast<std::size_t>(shape.columns()), 0);
-    keep.setOnes(1, shape.columns());
-    completion.setZero(config.clauses, shape.columns());
-    start.resize(config.memory_size, shape.batch);
-  }
-};
-
-/// The whole network: text-visual attention, memory, text, optional task attention, two heads.
-/// docs/math.md has every equation, docs/architecture.md the data flow with its shapes.
+/// The whole network: vision, text-visual attention, memory, text, optional task attention, two
+/// heads. docs/math.md has every equation, docs/architecture.md the data flow with its shapes.
 ///
-/// Work is split in two. Tables depend on the weights alone and are rebuilt once a weight version;
-/// frames only gather from them. So the backward pass of the frames ends in the gradients of the
-/// tables, and these turn into gradients of the weights once a minibatch.
-///
-/// The encoder decides how much of the visual half is a table. A 1x1 encoding is one, and so are
-/// its scores and its products with the memory's input weight (FilteredInput). A 3x3 encoding is a
-/// map a frame, of which the first layer alone is a table (PatchEncoder, FilteredMap).
-///
-/// Members are defined in agent_impl.hpp and compiled once a scalar: Agent<float> in the library.
-template <std::floating_point S>
-struct Agent {
-  using Attention = TextVisualAttention<S>;
+/// An agent is a design and the steps of the computation; weights, gradients and memory are
+/// arguments. Vision and Attention are blocks that can be replaced: vision.hpp says what a vision
+/// offers, and TextVisualAttention what an attention does.
+template <std::floating_point S, class Vision_ = ConfiguredVision<S>,
+          class Attention_ = TextVisualAttention<S>>
+struct Agent : Design {
+  using Scalar = S;
+  using Vision = Vision_;
+  using Attention = Attention_;
   using Memory = nn::Lstm<S>;
+  using Text = TextEncoder<S>;
+  using Task = TaskAttention<S>;
 
-  Config config;
-  CellAlphabet alphabet;
+  Agent() = default;
+  Agent(const Config& c, CellAlphabet a) : Design{c, std::move(a)} {}
 
   struct Params {
-    typename VisualEncoder<S>::Params visual;  ///< empty with 3x3
-    typename PatchEncoder<S>::Params patches;  ///< empty with 1x1
+    typename Vision::Params vision;
     Matrix<S> words;  ///< [E, V] embeddings g~; column 0 (padding) is never read
-    typename Attention::Params attention;
+    typename Attention::Params attention;  ///< empty without attention
     typename Memory::Params memory;
-    typename TextEncoder<S>::Params text;
-    typename TaskAttention<S>::Params task;  ///< empty without task attention
-    Matrix<S> completion;                    ///< [4 H, clauses]; empty unless completion_input
+    typename Text::Params text;
+    typename Task::Params task;  ///< empty without task attention
+    Matrix<S> completion;        ///< [4 H, sub_tasks]; empty unless completion_input
     typename Head<S>::Params actor, critic;
     static constexpr auto fields() {
-      return std::tuple{
-          nn::Field{"visual", &Params::visual}, nn::Field{"patches", &Params::patches},
-          nn::Field{"words", &Params::words},   nn::Field{"attention", &Params::attention},
-          nn::Field{"memory", &Params::memory}, nn::Field{"text", &Params::text},
-          nn::Field{"task", &Params::task},     nn::Field{"completion", &Params::completion},
-          nn::Field{"actor", &Params::actor},   nn::Field{"critic", &Params::critic}};
+      return std::tuple{nn::Field{"", &Params::vision},
+                        nn::Field{"words", &Params::words},
+                        nn::Field{"attention", &Params::attention},
+                        nn::Field{"memory", &Params::memory},
+                        nn::Field{"text", &Params::text},
+                        nn::Field{"task", &Params::task, kTaskGroup},
+                        nn::Field{"completion", &Params::completion},
+                        nn::Field{"actor", &Params::actor},
+                        nn::Field{"critic", &Params::critic}};
     }
   };
 
-  /// What depends on the weights alone. Its gradient has the same type.
+  /// What depends on the weights alone: frames only gather from it.
   struct Tables {
-    Matrix<S> visual;                          ///< [C, P]; 1x1
-    typename PatchEncoder<S>::Tables patches;  ///< 3x3
+    typename Vision::Tables vision;
     typename Attention::Tables attention;
-    Matrix<S> input;  ///< [4 H, 49 P]; 1x1
-    Matrix<S> text;   ///< [3 G, V]
-    Matrix<S> words;  ///< [E, V]: only as a gradient, from the task module
+    Matrix<S> text;  ///< [3 G, V]
+    static constexpr auto fields() {
+      return std::tuple{nn::Field{"vision", &Tables::vision},
+                        nn::Field{"attention", &Tables::attention},
+                        nn::Field{"text", &Tables::text}};
+    }
   };
 
+  /// Parameters with their tables: refresh() makes the tables, after every change of the
+  /// parameters. A gradient has the same type: backward() fills both, reduce() turns the tables'
+  /// part into the parameters'.
+  struct Weights {
+    Params params;
+    Tables tables;
+    static constexpr auto fields() {
+      return std::tuple{nn::Field{"params", &Weights::params},
+                        nn::Field{"tables", &Weights::tables}};
+    }
+  };
+
+  /// Everything that backward needs of forward: the tape.
   struct Cache {
+    typename Vision::Cache vision;
     typename Attention::Cache attention;
-    typename TaskAttention<S>::Cache task;
+    typename Task::Cache task;
     typename Memory::Cache memory;
-    typename TextEncoder<S>::Cache text;
+    typename Text::Cache text;
     typename Head<S>::Cache actor, critic;
-    typename PatchEncoder<S>::Cache patches;
-    Vector<S> score;                // [P]: scratch, of one word with 3x3
-    Matrix<S> filtered, dfiltered;  // [49 C, N]: F with 3x3
-    Matrix<S> alpha;                // [words, N]: ones without the task module
-    Matrix<S> dalpha;               // [words, N]
-    Matrix<S> scale, dscale;        // [P, N]
-    Matrix<S> features, dfeatures;  // [H + G, N]: memory over text
+    Matrix<S> alpha, dalpha;        ///< [words, N]: ones without the task module
+    Matrix<S> ones, dscale;         // [P, N]; s(M) is ones without attention
+    Matrix<S> product, dproduct;    // [4 H, N]
+    Matrix<S> features, dfeatures;  ///< [H + G, N]: memory over text
+    Matrix<S> dfeatures_of_actor;   // [H + G, N]
+    Matrix<S> dtext;                // [G, M or more]
     nn::SequenceShape shape;
-
-    const Matrix<S>& logits() const { return actor.output; }   ///< [7, N]
-    const Matrix<S>& values() const { return critic.output; }  ///< [1, N]
   };
-
-  /// Whether the encoding sees neighbors (3x3), so that it is no table.
-  bool sees_patches() const { return config.encoder == Encoder::patch; }
-  /// P: numbers of a map; see TextVisualAttention. Codes are filled up to whole packets with kinds
-  /// that are never in view: columns of odd length cost twice the time.
-  Index kinds() const {
-    constexpr Index kPacket = 16;
-    return sees_patches() ? kMapSlots : (alphabet.size() + kPacket - 1) / kPacket * kPacket;
-  }
-  /// Which of them belongs to a cell of frame n.
-  Index kind(const CellMatrix& cells, Index cell, Index n) const {
-    return sees_patches() ? map_slot(cell) : cells(cell, n);
-  }
-  /// O~ of a cell of frame n, after forward.
-  Vector<S> encoding(const Tables& t, const Cache& k, const CellMatrix& cells, Index cell,
-                     Index n) const {
-    if (sees_patches()) return map_frame(k.patches.output, n).col(map_slot(cell));
-    return t.visual.col(cells(cell, n));
-  }
-  /// s(M) [P, N], after forward; ones without attention.
-  const Matrix<S>& scale(const Cache& k) const {
-    return config.attention ? k.attention.scale : k.scale;
-  }
 
   Params make_params() const;
+  Weights make_weights() const { return {make_params(), make_tables()}; }
+  Weights make_weights(Params params) const {
+    Weights w{std::move(params), make_tables()};
+    refresh(w);
+    return w;
+  }
+  /// Room for the gradients of a team; refers to what reduce() needs of each.
+  std::vector<Weights> make_gradients(int workers) const;
+  /// Random parameters for the start of training; docs/reading.md says which of it is a prior.
+  Params initialize(core::Rng& rng) const;
 
-  Tables make_tables() const;
-
-  /// The tables of these weights, all but `input`.
-  void update_tables(const Params& p, Tables& t) const;
-  /// Cells [from, to) of the input table, after update_tables: the large one, to be shared out.
-  /// Only 1x1 has it.
-  void update_input_table(const Params& p, Index from, Index to, Tables& t) const;
-  void update_all_tables(const Params& p, Tables& t) const {
-    update_tables(p, t);
-    if (!sees_patches()) update_input_table(p, 0, grid::kViewCells, t);
+  /// Makes the tables of these parameters.
+  void refresh(Weights& w, Team& team) const;
+  void refresh(Weights& w) const {
+    Team alone(1);
+    refresh(w, alone);
   }
 
-  /// Cells [from, to) of dt.input -> memory.input_weight and dt.visual. Only 1x1 has it.
-  void input_table_backward(const Params& p, const Tables& t, const Tables& dt, Index from,
-                            Index to, Params& grads, Out<S> dvisual) const;
-  /// The other tables' gradients -> weights; dt is used up.
-  void tables_backward(const Params& p, const Tables& t, Tables& dt, Params& grads) const;
-  void all_tables_backward(const Params& p, const Tables& t, Tables& dt, Params& grads) const {
-    if (!sees_patches()) input_table_backward(p, t, dt, 0, grid::kViewCells, grads, dt.visual);
-    tables_backward(p, t, dt, grads);
-  }
-  static void set_zero(Tables& t);
-  /// Calls f(table of a, table of b...) for all tables whose gradients are to be summed but
-  /// `input`.
-  template <class F, class... T>
-  static void for_each_small_table(F&& f, T&... t) {
-    f(t.visual...);
-    f(t.patches.first...);
-    f(t.attention.probes...);
-    f(t.attention.scores...);
-    f(t.text...);
-    f(t.words...);
+  /// The text features [G, M or more] of all missions, which backward wants to find in the cache.
+  void encode_text(const Weights& w, const Missions& missions, Cache& k, Out<S> text) const {
+    Text::forward(w.params.text, w.tables.text, missions, k.text, text);
   }
 
-  /// Encodes all missions into the cache, from where text() takes their features [G, M].
-  void encode_missions(const Params& p, const Tables& t, const Missions& missions, Cache& k) const;
-  static auto text(const Cache& k) { return TextEncoder<S>::text(k.text); }
+  /// From frames and the text features of their missions to the outputs.
+  void forward(const Weights& w, const Frames<S>& x, const Missions& missions, In<S> text, Cache& k,
+               Outputs<S>& y) const;
 
-  /// From frames and the text features [G, M or more] of their missions to logits and values.
-  void forward(const Params& p, const Tables& t, const Frames<S>& x, const Missions& missions,
-               In<S> text, Cache& k) const;
+  /// From the gradient of the outputs to those of the weights (+=). The missions are those that
+  /// encode_text saw last in this cache.
+  void backward(const Weights& w, const Frames<S>& x, const Missions& missions, const Outputs<S>& y,
+                const Outputs<S>& dy, Cache& k, Weights& grads) const;
 
-  /// From dlogits [7, N] and dvalues [1, N] (and, with the task module, cache.task.dlogits: what
-  /// the mask loss asks) to grads and dt; both accumulate (+=). The missions are those that
-  /// encode_missions saw last in this cache.
-  void backward(const Params& p, const Tables& t, const Frames<S>& x, const Missions& missions,
-                In<S> dlogits, In<S> dvalues, Cache& k, Params& grads, Tables& dt) const;
+  /// The gradients of all workers, summed in their order into the params of the first; the same
+  /// number of workers gives the same bits.
+  void reduce(const Weights& w, std::span<Weights> grads, Team& team) const;
+
+  /// s(M) [P, N], after forward; ones without attention.
+  const Matrix<S>& scale(const Cache& k) const {
+    return config.attention ? k.attention.scale : k.ones;
+  }
+  /// The entry of a map that belongs to a cell of frame n.
+  Index entry(const CellMatrix& cells, Index cell, Index n) const {
+    return Vision::entry(*this, cells, cell, n);
+  }
 
  private:
-  S leak() const { return static_cast<S>(config.encoder_leak); }
-  S sharpness() const { return static_cast<S>(1 / std::log(config.entropy_base)); }
-
-  void forward_scores(const Tables& t, const Frames<S>& x, const Missions& missions,
-                      Cache& k) const;
-  void backward_scores(const Tables& t, const Frames<S>& x, const Missions& missions, Cache& k,
-                       Tables& dt) const;
-
+  Tables make_tables() const;
   /// Sizes the cache for these frames; does nothing from the second call on.
-  void fit(nn::SequenceShape shape, Index longest, Cache& k) const;
-
-  /// The task module's input: sum_i w_i e_i, or the w_i e_i one below the other, over c_t.
-  Index weighed_size() const {
-    return config.task_places ? config.task_words * config.word_size : config.word_size;
-  }
-  /// The row of that input from which word i is added.
-  Index weighed_row(Index i) const { return config.task_places ? i * config.word_size : 0; }
-  void weigh_words(const Params& p, const Missions& missions, const Frames<S>& x, Cache& k) const;
-  void weigh_words_backward(const Params& p, const Missions& missions, const Frames<S>& x, Cache& k,
-                            Tables& dt) const;
+  void fit(nn::SequenceShape shape, Index longest, Cache& k, Outputs<S>& y) const;
+  void attend(const Weights& w, const Frames<S>& x, const Missions& missions, Cache& k,
+              Outputs<S>& y) const;
+  void attend_backward(const Weights& w, const Frames<S>& x, const Missions& missions,
+                       const Outputs<S>& y, const Outputs<S>& dy, Cache& k, Weights& grads) const;
 };
 
+template <std::floating_point S, class V, class A>
+void Agent<S, V, A>::forward(const Weights& w, const Frames<S>& x, const Missions& missions,
+                             In<S> text, Cache& k, Outputs<S>& y) const {
+  const auto& [p, t] = w;
+  fit(x.shape, missions.longest, k, y);
+  V::forward(*this, p.vision, t.vision, x.cells, k.vision);  // O~
+  if (config.attention) attend(w, x, missions, k, y);        // s(M)
+  V::read(*this, t.vision, p.memory.input_weight, x.cells, scale(k), k.vision, k.product);
+  if (config.completion_input) k.product.noalias() += p.completion * x.completion;
+  auto h = k.features.topRows(config.memory_size);
+  Memory::forward(p.memory, x.shape, k.product, x.keep, x.start, k.memory, h);
+  for (Index n = 0; n < x.shape.columns(); ++n) {
+    k.features.col(n).tail(config.text_size) = text.col(x.mission(n));
+  }
+  Head<S>::forward(p.actor, k.features, k.actor, y.logits);
+  Head<S>::forward(p.critic, k.features, k.critic, y.values);
+}
+
+template <std::floating_point S, class V, class A>
+void Agent<S, V, A>::attend(const Weights& w, const Frames<S>& x, const Missions& missions,
+                            Cache& k, Outputs<S>& y) const {
+  const auto& [p, t] = w;
+  V::with_scores(*this, t.vision, t.attention.probes, x.cells, k.vision,
+                 [&](const auto& counts, auto&& score_of) {
+                   A::forward_words(config, counts, score_of, x, missions, k.attention);
+                 });
+  if (config.task_attention) {
+    Task::forward(config, p.task, p.words, k.attention.weights, x, missions, k.task, y.mask);
+    const Index words = std::min(k.alpha.rows(), y.mask.rows());
+    k.alpha.topRows(words) = y.mask.topRows(words);
+  }
+  A::forward_gaze(config, x, missions, k.alpha, k.attention);
+}
+
+template <std::floating_point S, class V, class A>
+void Agent<S, V, A>::backward(const Weights& w, const Frames<S>& x, const Missions& missions,
+                              const Outputs<S>& y, const Outputs<S>& dy, Cache& k,
+                              Weights& grads) const {
+  const auto& [p, t] = w;
+  auto& [dp, dt] = grads;
+  Head<S>::backward(p.critic, k.features, dy.values, k.critic, dp.critic, k.dfeatures);
+  Head<S>::backward(p.actor, k.features, dy.logits, k.actor, dp.actor, k.dfeatures_of_actor);
+  k.dfeatures += k.dfeatures_of_actor;  // both heads read the features
+  if (k.dtext.cols() < missions.size()) k.dtext.resize(config.text_size, missions.size());
+  k.dtext.setZero();
+  for (Index n = 0; n < x.shape.columns(); ++n) {
+    k.dtext.col(x.mission(n)) += k.dfeatures.col(n).tail(config.text_size);
+  }
+  Text::backward(p.text, missions, k.dtext, k.text, dp.text, dt.text);
+  const auto dh = k.dfeatures.topRows(config.memory_size);
+  Memory::backward(p.memory, x.shape, x.keep, dh, k.memory, dp.memory, k.dproduct);
+  if (config.completion_input) dp.completion.noalias() += k.dproduct * x.completion.transpose();
+  V::read_backward(*this, t.vision, p.memory.input_weight, x.cells, scale(k), k.dproduct, k.vision,
+                   dp.memory.input_weight, dt.vision, k.dscale);
+  if (config.attention) attend_backward(w, x, missions, y, dy, k, grads);
+  V::backward(*this, p.vision, t.vision, x.cells, k.vision, dp.vision, dt.vision);
+}
+
+template <std::floating_point S, class V, class A>
+void Agent<S, V, A>::attend_backward(const Weights& w, const Frames<S>& x, const Missions& missions,
+                                     const Outputs<S>& y, const Outputs<S>& dy, Cache& k,
+                                     Weights& grads) const {
+  const auto& [p, t] = w;
+  auto& [dp, dt] = grads;
+  A::backward_gaze(config, x, missions, k.alpha, k.dscale, k.attention, k.dalpha);
+  if (config.task_attention) {
+    Task::backward(config, p.task, p.words, k.attention.weights, x, missions, y.mask, k.dalpha,
+                   dy.mask, k.task, dp.task, k.attention.dweights, dp.words);
+  }
+  V::with_score_gradients(*this, t.vision, t.attention.probes, k.vision, dt.vision,
+                          dt.attention.probes, [&](const auto& counts, auto&& take) {
+                            A::backward_words(config, counts, x, missions, k.alpha, k.attention,
+                                              take);
+                          });
+}
+
+template <std::floating_point S, class V, class A>
+void Agent<S, V, A>::refresh(Weights& w, Team& team) const {
+  auto& [p, t] = w;
+  if (config.attention) A::refresh(p.attention, p.words, t.attention);
+  V::refresh(*this, p.vision, t.attention.probes, p.memory.input_weight, t.vision, team);
+  Text::refresh(p.text, p.words, t.text);
+}
+
+template <std::floating_point S, class V, class A>
+void Agent<S, V, A>::reduce(const Weights& w, std::span<Weights> grads, Team& team) const {
+  const auto& [p, t] = w;
+  auto& [dp, dt] = grads.front();
+  team.run([&](int part) {
+    for (const Weights& other : grads.subspan(1)) {
+      nn::add(grads.front(), other, {part, team.size()});
+    }
+  });
+  V::reduce(
+      *this, t.vision, p.memory.input_weight,
+      [&](int worker) -> auto& { return grads[static_cast<std::size_t>(worker)].tables.vision; },
+      dp.memory.input_weight, team);
+  Text::table_backward(p.text, p.words, dt.text, dp.text, dp.words);
+  V::tables_backward(*this, t.vision, t.attention.probes, dt.vision, dt.attention.probes,
+                     dp.vision);
+  if (config.attention) {
+    A::tables_backward(p.attention, p.words, t.attention, dt.attention, dp.attention, dp.words);
+  }
+}
+
+template <std::floating_point S, class V, class A>
+typename Agent<S, V, A>::Params Agent<S, V, A>::make_params() const {
+  const Config& c = config;
+  Params p;
+  V::resize(*this, p.vision);
+  p.words.resize(c.word_size, babyai::kVocabularySize);
+  if (c.attention) A::resize(c, p.attention);
+  Memory::resize(grid::kViewCells * c.channels, c.memory_size, p.memory);
+  nn::Gru<S>::resize(c.word_size, c.text_size, p.text);
+  if (c.task_attention) Task::resize(c, p.task);
+  if (c.completion_input) p.completion.resize(4 * c.memory_size, c.sub_tasks);
+  Head<S>::resize(c.memory_size + c.text_size, c.head_size, grid::kActions, p.actor);
+  Head<S>::resize(c.memory_size + c.text_size, c.head_size, 1, p.critic);
+  nn::set_zero(p);
+  return p;
+}
+
+template <std::floating_point S, class V, class A>
+typename Agent<S, V, A>::Tables Agent<S, V, A>::make_tables() const {
+  Tables t;
+  V::resize(*this, t.vision);
+  if (config.attention) A::resize(config, t.attention);
+  t.text.setZero(3 * config.text_size, babyai::kVocabularySize);
+  return t;
+}
+
+template <std::floating_point S, class V, class A>
+std::vector<typename Agent<S, V, A>::Weights> Agent<S, V, A>::make_gradients(int workers) const {
+  std::vector<Weights> grads(static_cast<std::size_t>(workers), make_weights());
+  if (V::input_weight_from_tables(*this)) {
+    for (Weights& other : std::span(grads).subspan(1)) {
+      other.params.memory.input_weight.resize(0, 0);
+    }
+  }
+  return grads;
+}
+
+template <std::floating_point S, class V, class A>
+typename Agent<S, V, A>::Params Agent<S, V, A>::initialize(core::Rng& rng) const {
+  const Config& c = config;
+  Params p = make_params();
+  V::initialize(*this, rng, p.vision);
+  nn::fill_normal(p.words, rng);
+  if (c.attention) {
+    A::initialize(rng, p.attention);
+    if (c.object_prior > 0) {
+      V::set_object_channel(*this, p.vision);
+      A::set_object_prior(c, p.attention, p.words);
+    }
+  }
+  nn::fill_scaled(p.memory.input_weight, 1, rng);
+  nn::fill_scaled(p.memory.hidden_weight, 1, rng);
+  p.memory.bias.segment(c.memory_size, c.memory_size).setOnes();  // the forget gate
+  const double gru_limit = 1 / std::sqrt(static_cast<double>(c.text_size));
+  nn::fill_uniform(p.text.input_weight, gru_limit, rng);
+  nn::fill_uniform(p.text.hidden_weight, gru_limit, rng);
+  nn::fill_uniform(p.text.bias, gru_limit, rng);
+  nn::fill_uniform(p.text.candidate_bias, gru_limit, rng);
+  if (c.task_attention) Task::initialize(rng, p.task);
+  for (auto* head : {&p.actor, &p.critic}) {
+    nn::fill_scaled(head->hidden.weight, std::numbers::sqrt2, rng);
+    nn::fill_scaled(head->output.weight, head == &p.actor ? 0.01 : 1.0, rng);
+  }
+  return p;
+}
+
+template <std::floating_point S, class V, class A>
+void Agent<S, V, A>::fit(nn::SequenceShape shape, Index longest, Cache& k, Outputs<S>& y) const {
+  // Whole packets a column, so that what is rounded how does not depend on earlier batches.
+  const Index words = std::max<Index>((longest + 15) / 16 * 16, k.alpha.rows());
+  const Index frames = shape.columns();
+  if (y.logits.cols() != frames) y.resize(config, frames);
+  if (shape == k.shape && words == k.alpha.rows()) return;
+  const Config& c = config;
+  k.shape = shape;
+  V::resize(*this, frames, k.vision);
+  if (c.attention) k.attention.resize(V::entries(*this), frames, words);
+  if (c.task_attention) k.task.resize(c, frames);
+  k.memory.resize(c.memory_size, shape);
+  for (auto* head : {&k.actor, &k.critic}) head->resize(c.head_size, frames);
+  k.alpha.setOnes(words, frames);
+  k.dalpha.setZero(c.task_attention ? c.task_words : words, frames);
+  k.ones.setOnes(V::entries(*this), frames);
+  k.dscale.setZero(V::entries(*this), frames);
+  for (auto* m : {&k.product, &k.dproduct}) m->resize(4 * c.memory_size, frames);
+  for (auto* m : {&k.features, &k.dfeatures, &k.dfeatures_of_actor}) {
+    m->setZero(c.memory_size + c.text_size, frames);
+  }
+}
+
 }  // namespace wordgaze::model
+
+#if WORDGAZE_COMPILED  // set by wordgaze::policy, whose library holds it
+extern template struct wordgaze::model::Agent<float>;
+#endif

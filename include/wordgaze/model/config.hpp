@@ -29,7 +29,7 @@ struct Config {
   int head_size = 64;        ///< hidden layer of actor and of critic
   int task_size = 64;        ///< hidden layer of the Task Attention Module
   int task_words = 32;       ///< outputs of the Task Attention Module: longest mission it takes
-  int clauses = 4;           ///< length of the completion vector c_t, in sub-tasks
+  int sub_tasks = 4;         ///< length of the completion vector c_t
   double entropy_base = 49;  ///< base of the logarithm in the row entropies H (eq. 2)
   double gaze_exponent = 2;  ///< p in s(M) = f + (1 - f) (M / max M)^p
   double gaze_floor = 0.1;   ///< f: what is left of the darkest cells
@@ -58,7 +58,7 @@ struct Config {
         Setting{"task_size", &C::task_size, "hidden layer of the Task Attention Module", 1, 4096},
         Setting{"task_words", &C::task_words,
                 "longest mission, in words, that the Task Attention Module takes", 1, 73},
-        Setting{"clauses", &C::clauses, "length of the completion vector c_t, in sub-tasks", 1, 8},
+        Setting{"sub_tasks", &C::sub_tasks, "length of the completion vector c_t", 1, 8, "clauses"},
         Setting{"entropy_base", &C::entropy_base,
                 "base of the logarithm in the row entropies (eq. 2); 2.718281828 or 49", 1.1, 1e6},
         Setting{"gaze_exponent", &C::gaze_exponent, "p in s(M) = f + (1 - f) (M / max M)^p", 1, 16},

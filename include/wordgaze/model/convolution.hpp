@@ -1,5 +1,6 @@
 #pragma once
 #include <concepts>
+#include <tuple>
 
 #include "wordgaze/model/view_map.hpp"
 #include "wordgaze/nn/parameters.hpp"
@@ -23,28 +24,27 @@ struct Convolution {
       return std::tuple{nn::Field{"weight", &Params::weight}, nn::Field{"bias", &Params::bias}};
     }
   };
-  static void resize(Params& p, Index channels) {
+  static void resize(Index channels, Params& p) {
     p.weight.resize(channels, kTaps * channels);
     p.bias.resize(channels);
   }
 
-  /// y = weight * x, without the bias.
-  static void forward(In<S> weight, const Matrix<S>& x, Matrix<S>& y) {
-    const Index width = 3 * x.rows();
-    auto out = map_body(y);
-    out.noalias() = weight.leftCols(width) * shifted(x, 0);
-    out.noalias() += weight.middleCols(width, width) * shifted(x, 1);
-    out.noalias() += weight.rightCols(width) * shifted(x, 2);
+  static void forward(const Params& p, const Matrix<S>& x, Matrix<S>& y) {
+    convolve(p.weight, x, y);
+    map_body(y).colwise() += p.bias;
   }
-  /// Accumulates into the gradient of the weight.
-  static void backward_weight(const Matrix<S>& x, const Matrix<S>& dy, Out<S> dweight) {
+  /// `turned` is turn() of the weight. Accumulates into grads (+=), overwrites dx (=).
+  static void backward(In<S> turned, const Matrix<S>& x, const Matrix<S>& dy, Params& grads,
+                       Matrix<S>& dx) {
     const Index width = 3 * x.rows();
+    grads.bias += map_body(dy).rowwise().sum();
     for (Index row = 0; row < 3; ++row) {
-      dweight.middleCols(row * width, width).noalias() +=
+      grads.weight.middleCols(row * width, width).noalias() +=
           map_body(dy) * shifted(x, row).transpose();
     }
+    convolve(turned, dy, dx);
   }
-  /// The weight that takes dy back to dx: forward(turned, dy, dx).
+  /// The weight that takes dy back to dx by a convolution.
   static void turn(In<S> weight, Out<S> turned) {
     const Index channels = weight.rows();
     for (Index tap = 0; tap < kTaps; ++tap) {
@@ -54,6 +54,13 @@ struct Convolution {
   }
 
  private:
+  static void convolve(In<S> weight, const Matrix<S>& x, Matrix<S>& y) {
+    const Index width = 3 * x.rows();
+    auto out = map_body(y);
+    out.noalias() = weight.leftCols(width) * shifted(x, 0);
+    out.noalias() += weight.middleCols(width, width) * shifted(x, 1);
+    out.noalias() += weight.rightCols(width) * shifted(x, 2);
+  }
   /// Column q holds the three neighbors of slot q that taps 3 row to 3 row + 2 see.
   static auto shifted(const Matrix<S>& x, Index row) {
     const Index first = kMapMargin + tap_distance(3 * row);

@@ -1,7 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cassert>
-#include <cstdint>
+#include <cstddef>
 #include <vector>
 
 #include "wordgaze/babyai/sentence.hpp"
@@ -24,8 +24,14 @@ struct Missions {
     const auto found = std::find(sentences.begin(), sentences.end(), sentence);
     if (found != sentences.end()) return static_cast<int>(found - sentences.begin());
     sentences.push_back(sentence);
-    longest = std::max(longest, static_cast<int>(sentence.length));
+    longest = std::max(longest, sentence.length);
     return size() - 1;
+  }
+  /// Puts another sentence into a place.
+  void replace(int i, const babyai::Sentence& sentence) {
+    sentences[static_cast<std::size_t>(i)] = sentence;
+    longest = 0;
+    for (const auto& s : sentences) longest = std::max(longest, s.length);
   }
   const babyai::Sentence& operator[](int i) const {
     assert(i >= 0 && i < size());

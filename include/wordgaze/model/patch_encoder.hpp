@@ -1,6 +1,11 @@
 #pragma once
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <tuple>
+
+#include "wordgaze/model/cell_encoder.hpp"
 #include "wordgaze/model/convolution.hpp"
-#include "wordgaze/model/visual_encoder.hpp"
 
 namespace wordgaze::model {
 
@@ -8,67 +13,90 @@ namespace wordgaze::model {
 /// the 5x5 patch around it. Equations (V2) and (V3) in docs/math.md.
 ///
 /// A one-hot view under the first convolution is a sum of nine columns of its weight, one a
-/// neighbor. So the first layer is a table [C, 9 (P + 1)], column tap * (P + 1) + code, whose last
-/// code stands for what lies outside the view: zeros. The second layer is a Convolution.
+/// neighbor. So the first layer is a table [C, 9 (codes + 1)], column tap * (codes + 1) + code,
+/// whose last code stands for what lies outside the view: zeros. The second layer is a Convolution.
 ///
 /// shapes   N frames, maps of C channels (view_map.hpp)
 /// backward accumulates into grads and dtable (+=)
 template <std::floating_point S>
 struct PatchEncoder {
   struct Params {
-    typename VisualEncoder<S>::Params first;  ///< weight [C, 9 * 20]: a block of 20 columns a tap
+    typename CellEncoder<S>::Params first;  ///< weight [C, 9 * 20]: a block of 20 columns a tap
     typename Convolution<S>::Params second;
     static constexpr auto fields() {
       return std::tuple{nn::Field{"first", &Params::first}, nn::Field{"second", &Params::second}};
     }
   };
-  static void resize(Params& p, Index channels) {
-    p.first.weight.resize(channels, kTaps * kCellFeatures);
-    p.first.bias.resize(channels);
-    Convolution<S>::resize(p.second, channels);
-  }
-
   /// What depends on the weights alone.
   struct Tables {
-    Matrix<S> first;   // [C, 9 (P + 1)]
-    Matrix<S> turned;  // [C, 9 C] the second weight, for the way back
-    void resize(Index channels, Index codes) {
-      first.setZero(channels, kTaps * (codes + 1));
-      turned.setZero(channels, kTaps * channels);
+    Matrix<S> first;   // [C, 9 (codes + 1)]
+    Matrix<S> turned;  // [C, 9 C] the second weight, for the way back; not as a gradient
+    static constexpr auto fields() { return std::tuple{nn::Field{"first", &Tables::first}}; }
+  };
+  struct Cache {
+    Matrix<S> hidden, output;  ///< maps: after the first layer, and O~
+    Matrix<S> dhidden, doutput;
+    void resize(const Design& d, Index frames) {
+      for (auto* m : {&hidden, &output, &dhidden, &doutput}) {
+        m->setZero(d.config.channels, map_columns(frames));
+      }
     }
   };
-  static void make_tables(const Params& p, const CellAlphabet& alphabet, Tables& t) {
+
+  static void resize(const Design& d, Params& p) {
+    p.first.weight.resize(d.config.channels, kTaps * kCellFeatures);
+    p.first.bias.resize(d.config.channels);
+    Convolution<S>::resize(d.config.channels, p.second);
+  }
+  static void resize(const Design& d, Tables& t) {
+    t.first.setZero(d.config.channels, kTaps * (d.alphabet.size() + 1));
+    t.turned.setZero(d.config.channels, kTaps * d.config.channels);
+  }
+  /// Near the 1x1 encoder: a cell says more than its neighbors, and the second convolution begins
+  /// as the identity with small random weights around it.
+  static void initialize(const Design& d, core::Rng& rng, Params& p) {
+    nn::fill_uniform(p.first.weight, 0.1, rng);
+    auto center = p.first.weight.middleCols(kTaps / 2 * kCellFeatures, kCellFeatures);
+    nn::fill_uniform(center, 0.5, rng);
+    p.first.bias.setConstant(static_cast<S>(d.config.encoder_bias));
+    nn::fill_scaled(p.second.weight, 0.3, rng);
+    p.second.weight.middleCols(kTaps / 2 * d.config.channels, d.config.channels)
+        .diagonal()
+        .array() += S(1);
+  }
+  static void set_object_channel(const Design& d, Params& p) {
+    auto& [first, second] = p;
+    first.weight.row(0).setZero();
+    first.weight.row(0).segment(kTaps / 2 * kCellFeatures + kFirstObject, kObjectTypes).setOnes();
+    first.bias(0) = 0;
+    second.weight.row(0).setZero();
+    second.weight(0, kTaps / 2 * d.config.channels) = 1;
+  }
+
+  static void refresh(const Design& d, const Params& p, Tables& t) {
+    const CellAlphabet& alphabet = d.alphabet;
     for (Index tap = 0; tap < kTaps; ++tap) {
       const auto weight = p.first.weight.middleCols(tap * kCellFeatures, kCellFeatures);
       for (int code = 0; code < alphabet.size(); ++code) {
-        const auto [type, color, state] = VisualEncoder<S>::features(alphabet[code]);
+        const auto [type, color, state] = features(alphabet[code]);
         t.first.col(tap * (alphabet.size() + 1) + code) =
             weight.col(type) + weight.col(color) + weight.col(state);
       }
     }
     Convolution<S>::turn(p.second.weight, t.turned);
   }
-  static void tables_backward(const CellAlphabet& alphabet, const Tables& dt, Params& grads) {
+  static void tables_backward(const Design& d, const Tables& dt, Params& grads) {
     for (Index tap = 0; tap < kTaps; ++tap) {
       auto weight = grads.first.weight.middleCols(tap * kCellFeatures, kCellFeatures);
-      for (int code = 0; code < alphabet.size(); ++code) {
-        const auto column = dt.first.col(tap * (alphabet.size() + 1) + code);
-        for (const int row : VisualEncoder<S>::features(alphabet[code])) weight.col(row) += column;
+      for (int code = 0; code < d.alphabet.size(); ++code) {
+        const auto column = dt.first.col(tap * (d.alphabet.size() + 1) + code);
+        for (const int row : features(d.alphabet[code])) weight.col(row) += column;
       }
     }
   }
 
-  struct Cache {
-    Matrix<S> hidden, output;  ///< maps: after the first layer, and O~
-    Matrix<S> dhidden, doutput;
-    void resize(Index channels, Index frames) {
-      for (auto* m : {&hidden, &output, &dhidden, &doutput}) {
-        m->setZero(channels, map_columns(frames));
-      }
-    }
-  };
-
-  static void forward(const Params& p, const Tables& t, const CellMatrix& cells, S leak, Cache& k) {
+  static void forward(const Design& d, const Params& p, const Tables& t, const CellMatrix& cells,
+                      Cache& k) {
     const Index codes = t.first.cols() / kTaps;
     for (Index n = 0; n < cells.cols(); ++n) {
       const Around around(cells, n, codes - 1);
@@ -80,23 +108,21 @@ struct PatchEncoder {
       }
     }
     // Slots between the cells stay zero.
+    const S leak = leak_of(d);
     map_body(k.hidden) = map_body(k.hidden).cwiseMax(leak * map_body(k.hidden));
-    Convolution<S>::forward(p.second.weight, k.hidden, k.output);
+    Convolution<S>::forward(p.second, k.hidden, k.output);
     auto y = map_body(k.output);
-    y.colwise() += p.second.bias;
     y = y.cwiseMax(leak * y);
   }
 
   /// On entry cache.doutput is the gradient of O~, zero between the cells; it is used up.
-  static void backward(const Tables& t, const CellMatrix& cells, S leak, Cache& k, Params& grads,
-                       Tables& dt) {
-    const auto through = [leak](const Matrix<S>& y, Matrix<S>& dy) {
+  static void backward(const Design& d, const Params&, const Tables& t, const CellMatrix& cells,
+                       Cache& k, Params& grads, Tables& dt) {
+    const auto through = [leak = leak_of(d)](const Matrix<S>& y, Matrix<S>& dy) {
       map_body(dy) = (map_body(y).array() > S(0)).select(map_body(dy), leak * map_body(dy));
     };
     through(k.output, k.doutput);
-    grads.second.bias += map_body(k.doutput).rowwise().sum();
-    Convolution<S>::backward_weight(k.hidden, k.doutput, grads.second.weight);
-    Convolution<S>::forward(t.turned, k.doutput, k.dhidden);
+    Convolution<S>::backward(t.turned, k.hidden, k.doutput, grads.second, k.dhidden);
     through(k.hidden, k.dhidden);
     const Index codes = t.first.cols() / kTaps;
     for (Index n = 0; n < cells.cols(); ++n) {
@@ -113,6 +139,8 @@ struct PatchEncoder {
   }
 
  private:
+  static S leak_of(const Design& d) { return static_cast<S>(d.config.encoder_leak); }
+
   /// The codes around each cell of a frame, with one more code outside of the view.
   class Around {
    public:

@@ -1,4 +1,6 @@
 #pragma once
+#include <concepts>
+
 #include "wordgaze/babyai/vocabulary.hpp"
 #include "wordgaze/model/missions.hpp"
 #include "wordgaze/nn/gru.hpp"
@@ -8,58 +10,60 @@ namespace wordgaze::model {
 /// The GRU over the mission; its last state is the text feature. Its input product is a table over
 /// the vocabulary: columns are gathered, not multiplied.
 ///
-/// shapes   words [E, V]: embeddings g~; table [3 G, V]; text [G, M] for M missions
+/// shapes   words [E, V]: embeddings g~; table [3 G, V]; text [G, M or more] for M missions
+/// backward accumulates into grads and dtable (+=)
 template <std::floating_point S>
 struct TextEncoder {
   using Params = typename nn::Gru<S>::Params;
 
   struct Cache {
     typename nn::Gru<S>::Cache gru;
-    Matrix<S> active;         // [1, T*M]
-    Matrix<S> dtext;          // [G, M]
-    nn::SequenceShape shape;  // of the batch; the matrices may be larger
+    Matrix<S> product, dproduct;  // [3 G, T*M], perhaps wider
+    Matrix<S> active;             // [1, T*M]
   };
 
-  static void make_table(const Params& p, In<S> words, Out<S> table) {
+  /// What depends on the weights alone, and the way back from it.
+  static void refresh(const Params& p, In<S> words, Out<S> table) {
     table.noalias() = p.input_weight * words;
   }
-  /// Turns the table's gradient into those of the input weight and of the embeddings (+=).
   static void table_backward(const Params& p, In<S> words, In<S> dtable, Params& grads,
                              Out<S> dwords) {
     grads.input_weight.noalias() += dtable * words.transpose();
     dwords.noalias() += p.input_weight.transpose() * dtable;
   }
 
-  static void forward(const Params& p, In<S> table, const Missions& missions, Cache& k) {
-    k.shape = {missions.longest, missions.size()};
-    const Index hidden = p.hidden_weight.cols(), columns = k.shape.columns();
-    k.gru.reserve(hidden, columns);
-    if (k.active.cols() < columns) k.active.resize(1, columns);
-    if (k.dtext.cols() < k.shape.batch) k.dtext.resize(hidden, k.shape.batch);
-    k.active.leftCols(columns).setZero();
-    k.gru.gates.leftCols(columns).setZero();
-    for (int m = 0; m < missions.size(); ++m) {
-      const auto& sentence = missions[m];
-      for (int i = 0; i < sentence.length; ++i) {
-        const Index column = k.shape.column(i, m);
-        k.active(0, column) = S(1);
-        k.gru.gates.col(column) = table.col(sentence.words[static_cast<std::size_t>(i)]);
-      }
+  static void forward(const Params& p, In<S> table, const Missions& missions, Cache& k,
+                      Out<S> text) {
+    const nn::SequenceShape shape{missions.longest, missions.size()};
+    const Index columns = shape.columns();
+    if (k.active.cols() < columns) {
+      k.active.resize(1, columns);
+      for (auto* m : {&k.product, &k.dproduct}) m->resize(table.rows(), columns);
     }
-    nn::Gru<S>::forward(p, k.shape, k.active, k.gru);
+    k.active.leftCols(columns).setZero();
+    k.product.leftCols(columns).setZero();
+    for_each_word(missions, shape, [&](Index column, babyai::WordId word) {
+      k.active(0, column) = S(1);
+      k.product.col(column) = table.col(word);
+    });
+    nn::Gru<S>::forward(p, shape, k.product, k.active, k.gru, text.leftCols(shape.batch));
   }
-  /// [G, M]
-  static auto text(const Cache& k) { return k.shape.block(k.gru.h, k.shape.steps - 1); }
+  static void backward(const Params& p, const Missions& missions, In<S> dtext, Cache& k,
+                       Params& grads, Out<S> dtable) {
+    const nn::SequenceShape shape{missions.longest, missions.size()};
+    nn::Gru<S>::backward(p, shape, k.active, dtext.leftCols(shape.batch), k.gru, grads, k.dproduct);
+    for_each_word(missions, shape, [&](Index column, babyai::WordId word) {
+      dtable.col(word) += k.dproduct.col(column);
+    });
+  }
 
-  /// On entry cache.dtext [G, M], perhaps wider, is the gradient of text().
-  static void backward(const Params& p, const Missions& missions, Cache& k, Params& grads,
-                       Out<S> dtable) {
-    nn::Gru<S>::backward(p, k.shape, k.active, k.dtext.leftCols(k.shape.batch), k.gru, grads);
+ private:
+  template <class F>
+  static void for_each_word(const Missions& missions, nn::SequenceShape shape, F&& f) {
     for (int m = 0; m < missions.size(); ++m) {
       const auto& sentence = missions[m];
       for (int i = 0; i < sentence.length; ++i) {
-        dtable.col(sentence.words[static_cast<std::size_t>(i)]) +=
-            k.gru.dgates.col(k.shape.column(i, m));
+        f(shape.column(i, m), sentence.words[static_cast<std::size_t>(i)]);
       }
     }
   }

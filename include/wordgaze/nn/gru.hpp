@@ -1,5 +1,6 @@
 #pragma once
 #include <concepts>
+#include <tuple>
 
 #include "wordgaze/nn/parameters.hpp"
 #include "wordgaze/nn/sequence.hpp"
@@ -9,14 +10,15 @@ namespace wordgaze::nn {
 /// GRU over sequences of different lengths; equations (G1)-(G4) in docs/math.md, gates r, z, n.
 /// Past its end a sequence keeps its state, so padding never leaks into the result.
 ///
-/// The product of input and input weight is the caller's (words repeat: it is a table over the
-/// vocabulary), so it arrives in `cache.gates` already multiplied.
+/// The product of input and input weight is the caller's: words repeat, so it is a table over the
+/// vocabulary.
 ///
-/// shapes   cache.gates [3 hidden, T*B or more] holds W_x x on entry, the gates' values afterwards;
-///          a cache may be larger than the batch, columns behind T*B are not touched
+/// shapes   product [3 hidden, T*B]  W_x x
 ///          active [1, T*B]  1 while the sequence lasts, 0 behind its end
-///          cache.h [hidden, T*B]; the last block is the state after each whole sequence
-/// backward writes cache.dgates, the gradient of W_x x; accumulates into grads all but input_weight
+///          h [hidden, B]  the state after each whole sequence
+///          A cache and dproduct may be larger than the batch: columns behind T*B are not touched.
+/// backward accumulates into grads (+=) all but input_weight, which is the caller's; overwrites
+///          dproduct (=), the gradient of W_x x
 template <std::floating_point S>
 struct Gru {
   struct Params {
@@ -31,35 +33,36 @@ struct Gru {
                         Field{"candidate_bias", &Params::candidate_bias}};
     }
   };
-  static void resize(Params& p, Index in, Index hidden) {
+
+  struct Cache {
+    Matrix<S> gates, h_prev, recurrent;  // recurrent: W_h h_prev (+ candidate bias)
+    Matrix<S> dh, drecurrent;
+    /// Grows to hold `columns`; batches of any shape up to that size then cost no allocation.
+    void reserve(Index hidden, Index columns) {
+      if (columns <= gates.cols()) return;
+      for (auto* m : {&gates, &recurrent, &drecurrent}) m->resize(3 * hidden, columns);
+      for (auto* m : {&h_prev, &dh}) m->resize(hidden, columns);
+    }
+  };
+
+  static void resize(Index in, Index hidden, Params& p) {
     p.input_weight.resize(3 * hidden, in);
     p.hidden_weight.resize(3 * hidden, hidden);
     p.bias.resize(3 * hidden);
     p.candidate_bias.resize(hidden);
   }
 
-  struct Cache {
-    Matrix<S> gates, h, h_prev, recurrent, dgates;  // recurrent: W_h h_prev (+ candidate bias)
-    Matrix<S> dh, drecurrent;
-    /// Grows to hold `columns`; batches of any shape up to that size then cost no allocation.
-    void reserve(Index hidden, Index columns) {
-      if (columns <= gates.cols()) return;
-      for (auto* m : {&gates, &dgates, &recurrent, &drecurrent}) m->resize(3 * hidden, columns);
-      for (auto* m : {&h, &h_prev, &dh}) m->resize(hidden, columns);
-    }
-  };
-
-  static void forward(const Params& p, SequenceShape shape, In<S> active, Cache& k) {
+  static void forward(const Params& p, SequenceShape shape, In<S> product, In<S> active, Cache& k,
+                      Out<S> h) {
     const Index hidden = p.hidden_weight.cols();
+    k.reserve(hidden, shape.columns());
+    h.setZero();
     for (Index t = 0; t < shape.steps; ++t) {
       auto h_prev = shape.block(k.h_prev, t);
-      if (t == 0) {
-        h_prev.setZero();
-      } else {
-        h_prev = shape.block(k.h, t - 1);
-      }
+      h_prev = h;
       auto x = shape.block(k.gates, t);
       auto u = shape.block(k.recurrent, t);
+      x = shape.block(product, t);
       x.colwise() += p.bias;
       u.noalias() = p.hidden_weight * h_prev;
       u.bottomRows(hidden).colwise() += p.candidate_bias;
@@ -68,16 +71,15 @@ struct Gru {
       r = (r + u.topRows(hidden).array()).logistic();
       z = (z + u.middleRows(hidden, hidden).array()).logistic();
       n = (n + r * u.bottomRows(hidden).array()).tanh();
-      auto h = shape.block(k.h, t).array();
-      h = (S(1) - z) * (n - h_prev.array());  // what this step changes
-      h.rowwise() *= shape.block(active, t).row(0).array();
-      h += h_prev.array();
+      h.array() = (S(1) - z) * (n - h_prev.array());  // what this step changes
+      h.array().rowwise() *= shape.block(active, t).row(0).array();
+      h += h_prev;
     }
   }
 
-  /// dh_last [hidden, B]: gradient of the last block of cache.h.
+  /// dh_last [hidden, B]: gradient of h.
   static void backward(const Params& p, SequenceShape shape, In<S> active, In<S> dh_last, Cache& k,
-                       Params& grads) {
+                       Params& grads, Out<S> dproduct) {
     const Index hidden = p.hidden_weight.cols();
     auto dh = k.dh.leftCols(shape.batch);
     dh = dh_last;
@@ -87,7 +89,7 @@ struct Gru {
       const auto n = x.bottomRows(hidden).array();
       const auto h_prev = shape.block(k.h_prev, t).array();
       const auto alive = shape.block(active, t).row(0).array();
-      auto dx = shape.block(k.dgates, t);
+      auto dx = shape.block(dproduct, t);
       auto du = shape.block(k.drecurrent, t);
       auto dn = dx.bottomRows(hidden).array();
       dn = dh.array() * (S(1) - z) * (S(1) - n.square());
@@ -107,7 +109,7 @@ struct Gru {
     }
     const auto all = [&](const auto& m) { return m.leftCols(shape.columns()); };
     grads.hidden_weight.noalias() += all(k.drecurrent) * all(k.h_prev).transpose();
-    grads.bias += all(k.dgates).rowwise().sum();
+    grads.bias += all(dproduct).rowwise().sum();
     grads.candidate_bias += all(k.drecurrent).bottomRows(hidden).rowwise().sum();
   }
 };

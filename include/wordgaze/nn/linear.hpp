@@ -1,11 +1,13 @@
 #pragma once
 #include <concepts>
+#include <tuple>
 
 #include "wordgaze/nn/parameters.hpp"
 
 namespace wordgaze::nn {
 
-/// y = W x + b; equation (L) in docs/math.md.
+/// y = W x + b; equation (L) in docs/math.md. The layer to imitate: docs/architecture.md has the
+/// protocol of all of them.
 ///
 /// shapes   x [in, N]   y [out, N]
 /// backward accumulates into grads (+=), overwrites dx (=)
@@ -18,22 +20,21 @@ struct Linear {
       return std::tuple{Field{"weight", &Params::weight}, Field{"bias", &Params::bias}};
     }
   };
-  static void resize(Params& p, Index in, Index out) {
+  struct Cache {};  ///< nothing: backward is given x again
+
+  static void resize(Index in, Index out, Params& p) {
     p.weight.resize(out, in);
     p.bias.resize(out);
   }
-  static void forward(const Params& p, In<S> x, Out<S> y) {
+  static void forward(const Params& p, In<S> x, const Cache& /*k*/, Out<S> y) {
     y.noalias() = p.weight * x;
     y.colwise() += p.bias;
   }
-  static void backward(const Params& p, In<S> x, In<S> dy, Params& grads, Out<S> dx) {
-    backward_weights(x, dy, grads);
-    dx.noalias() = p.weight.transpose() * dy;
-  }
-  /// For a first layer, whose input wants no gradient.
-  static void backward_weights(In<S> x, In<S> dy, Params& grads) {
+  static void backward(const Params& p, In<S> x, In<S> dy, const Cache& /*k*/, Params& grads,
+                       Out<S> dx) {
     grads.weight.noalias() += dy * x.transpose();
     grads.bias += dy.rowwise().sum();
+    dx.noalias() = p.weight.transpose() * dy;
   }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <concepts>
+#include <tuple>
 
 #include "wordgaze/nn/parameters.hpp"
 #include "wordgaze/nn/sequence.hpp"
@@ -9,13 +10,13 @@ namespace wordgaze::nn {
 /// LSTM over whole sequences; equations (M1)-(M4) in docs/math.md, gates in the order i, f, g, o.
 ///
 /// The product of input and input weight is the caller's: the agent's input is never formed as a
-/// vector (see model/filtered_input.hpp), so it arrives in `cache.gates` already multiplied.
+/// vector (model/table_vision.hpp).
 ///
-/// shapes   cache.gates [4 hidden, T*B] holds W_x x on entry, the gates' values afterwards
+/// shapes   product [4 hidden, T*B]  W_x x
 ///          keep [1, T*B]  0 where an episode begins at that column, else 1
-///          cache.h, cache.cell [hidden, T*B]
-/// backward writes cache.dgates, the gradient of W_x x + W_h h + b; accumulates into grads
-///          hidden_weight and bias; input_weight is the caller's
+///          h, cache.cell [hidden, T*B]
+/// backward accumulates into grads (+=) hidden_weight and bias, input_weight is the caller's;
+///          overwrites dproduct (=), the gradient of W_x x + W_h h + b
 template <std::floating_point S>
 struct Lstm {
   struct Params {
@@ -28,11 +29,6 @@ struct Lstm {
                         Field{"bias", &Params::bias}};
     }
   };
-  static void resize(Params& p, Index in, Index hidden) {
-    p.input_weight.resize(4 * hidden, in);
-    p.hidden_weight.resize(4 * hidden, hidden);
-    p.bias.resize(4 * hidden);
-  }
 
   /// Memory between two steps; [hidden, B] each.
   struct State {
@@ -44,18 +40,23 @@ struct Lstm {
   };
 
   struct Cache {
-    Matrix<S> gates, cell, cell_tanh, h, h_prev, c_prev, dgates;  // [.., T*B]
-    Matrix<S> dh, dc;                                             // [hidden, B], scratch
+    Matrix<S> gates, cell, cell_tanh, h_prev, c_prev;  // [.., T*B]
+    Matrix<S> dh, dc;                                  // [hidden, B], scratch
     void resize(Index hidden, SequenceShape shape) {
       gates.resize(4 * hidden, shape.columns());
-      dgates.resize(4 * hidden, shape.columns());
-      for (auto* m : {&cell, &cell_tanh, &h, &h_prev, &c_prev}) m->resize(hidden, shape.columns());
+      for (auto* m : {&cell, &cell_tanh, &h_prev, &c_prev}) m->resize(hidden, shape.columns());
       for (auto* m : {&dh, &dc}) m->resize(hidden, shape.batch);
     }
   };
 
-  static void forward(const Params& p, SequenceShape shape, In<S> keep, const State& start,
-                      Cache& k) {
+  static void resize(Index in, Index hidden, Params& p) {
+    p.input_weight.resize(4 * hidden, in);
+    p.hidden_weight.resize(4 * hidden, hidden);
+    p.bias.resize(4 * hidden);
+  }
+
+  static void forward(const Params& p, SequenceShape shape, In<S> product, In<S> keep,
+                      const State& start, Cache& k, Out<S> h) {
     const Index hidden = p.hidden_weight.cols();
     for (Index t = 0; t < shape.steps; ++t) {
       auto h_prev = shape.block(k.h_prev, t);
@@ -64,7 +65,7 @@ struct Lstm {
         h_prev = start.h;
         c_prev = start.c;
       } else {
-        h_prev = shape.block(k.h, t - 1);
+        h_prev = shape.block(h, t - 1);
         c_prev = shape.block(k.cell, t - 1);
       }
       const auto alive = shape.block(keep, t).row(0).array();
@@ -72,6 +73,7 @@ struct Lstm {
       c_prev.array().rowwise() *= alive;
 
       auto z = shape.block(k.gates, t);
+      z = shape.block(product, t);
       z.noalias() += p.hidden_weight * h_prev;
       z.colwise() += p.bias;
       auto i = z.topRows(hidden).array(), f = z.middleRows(hidden, hidden).array();
@@ -84,13 +86,13 @@ struct Lstm {
       auto c_tanh = shape.block(k.cell_tanh, t).array();
       c = f * c_prev.array() + i * g;
       c_tanh = c.tanh();
-      shape.block(k.h, t).array() = o * c_tanh;
+      shape.block(h, t).array() = o * c_tanh;
     }
   }
 
-  /// dh [hidden, T*B]: gradient of cache.h from the layers above.
+  /// dh [hidden, T*B]: gradient of h from the layers above.
   static void backward(const Params& p, SequenceShape shape, In<S> keep, In<S> dh, Cache& k,
-                       Params& grads) {
+                       Params& grads, Out<S> dproduct) {
     const Index hidden = p.hidden_weight.cols();
     k.dh.setZero();
     k.dc.setZero();
@@ -100,7 +102,7 @@ struct Lstm {
       const auto i = z.topRows(hidden).array(), f = z.middleRows(hidden, hidden).array();
       const auto g = z.middleRows(2 * hidden, hidden).array(), o = z.bottomRows(hidden).array();
       const auto c_tanh = shape.block(k.cell_tanh, t).array();
-      auto dz = shape.block(k.dgates, t);
+      auto dz = shape.block(dproduct, t);
       k.dc.array() += k.dh.array() * o * (S(1) - c_tanh.square());
       dz.topRows(hidden).array() = k.dc.array() * g * i * (S(1) - i);
       dz.middleRows(hidden, hidden).array() =
@@ -114,8 +116,8 @@ struct Lstm {
       k.dh.noalias() = p.hidden_weight.transpose() * dz;
       k.dh.array().rowwise() *= alive;
     }
-    grads.hidden_weight.noalias() += k.dgates * k.h_prev.transpose();
-    grads.bias += k.dgates.rowwise().sum();
+    grads.hidden_weight.noalias() += dproduct * k.h_prev.transpose();
+    grads.bias += dproduct.rowwise().sum();
   }
 };
 

@@ -14,13 +14,19 @@
 /// and both Adam moments are objects of the same type.
 namespace wordgaze::nn {
 
+/// A member of a tree. A field without a name lends its own fields to its owner: their paths do not
+/// show it. `group` names a group of parameters to the optimizer, for the whole branch; 0: that of
+/// the owner.
 template <class Owner, class Member>
 struct Field {
   std::string_view name;
   Member Owner::*member;
+  int group = 0;
 };
 template <class O, class M>
 Field(const char*, M O::*) -> Field<O, M>;
+template <class O, class M>
+Field(const char*, M O::*, int) -> Field<O, M>;
 
 template <class T>
 concept Leaf = std::derived_from<std::remove_cvref_t<T>, Eigen::MatrixBase<std::remove_cvref_t<T>>>;
@@ -33,10 +39,13 @@ concept Tree = requires {
 struct Path {
   std::array<std::string_view, 8> names{};
   std::size_t depth = 0;
+  int group = 0;  ///< the one that the nearest field with a group names
 
-  Path operator/(std::string_view name) const {
+  template <class Owner, class Member>
+  Path operator/(const Field<Owner, Member>& field) const {
     Path longer = *this;
-    longer.names.at(longer.depth++) = name;
+    if (!field.name.empty()) longer.names.at(longer.depth++) = field.name;
+    if (field.group != 0) longer.group = field.group;
     return longer;
   }
   /// "memory.hidden_weight"
@@ -58,7 +67,7 @@ void walk(const Path& path, F& f, A& a, B&... b) {
 template <class F, Tree A, class... B>
 void walk(const Path& path, F& f, A& a, B&... b) {
   const auto visit = [&](auto field) {
-    walk(path / field.name, f, a.*(field.member), b.*(field.member)...);
+    walk(path / field, f, a.*(field.member), b.*(field.member)...);
   };
   std::apply([&](auto... field) { (visit(field), ...); }, std::remove_cvref_t<A>::fields());
 }
@@ -122,10 +131,14 @@ double squared_norm(const P& p, Part part = {}) {
   return total;
 }
 
-/// a += b, leaf by leaf.
+/// a += b, leaf by leaf. A leaf that b leaves empty adds nothing.
 template <Tree P>
-void add(P& a, const P& b) {
-  for_each_parameter([](const Path&, auto& x, const auto& y) { x += y; }, a, b);
+void add(P& a, const P& b, Part part = {}) {
+  for_each_parameter(
+      [&](const Path&, auto& x, const auto& y) {
+        if (y.size() > 0) part(x) += part(y);
+      },
+      a, b);
 }
 
 }  // namespace wordgaze::nn

@@ -1,0 +1,45 @@
+#pragma once
+#include <algorithm>
+#include <string>
+
+#include "wordgaze/io/tensor.hpp"
+#include "wordgaze/nn/parameters.hpp"
+
+/// Trees of parameters as named tensors.
+namespace wordgaze::io {
+
+template <nn::Tree P>
+void put_parameters(TensorMap& map, const std::string& prefix, const P& params) {
+  nn::for_each_parameter(
+      [&](const nn::Path& path, const auto& leaf) {
+        if (leaf.size() > 0) map.tensors.emplace(prefix + path.str(), tensor_of(leaf));
+      },
+      params);
+}
+
+/// Fills a tree that has its sizes. Where optional(path) holds, a tensor may be missing: the leaf
+/// then stays as it is. The vocabulary grows at its end, so `words` may have fewer columns: those
+/// of newer words stay as they are. Throws std::runtime_error that names the tensor for anything
+/// else.
+template <nn::Tree P, class Optional>
+void get_parameters(const TensorMap& map, const std::string& prefix, Optional&& optional,
+                    P& params) {
+  nn::for_each_parameter(
+      [&](const nn::Path& path, auto& leaf) {
+        const std::string name = prefix + path.str();
+        if (leaf.size() == 0 || (optional(path) && !map.tensors.contains(name))) return;
+        if constexpr (!std::remove_cvref_t<decltype(leaf)>::IsVectorAtCompileTime) {
+          const Tensor& tensor = map.tensor(name);
+          if (path.str() == "words" && tensor.shape.size() == 2 && tensor.shape[1] < leaf.cols()) {
+            std::remove_cvref_t<decltype(leaf)> known(leaf.rows(), tensor.shape[1]);
+            copy_tensor(map, name, known);
+            leaf.leftCols(known.cols()) = known;
+            return;
+          }
+        }
+        copy_tensor(map, name, leaf);
+      },
+      params);
+}
+
+}  // namespace wordgaze::io

@@ -1,0 +1,147 @@
+#pragma once
+#include <cmath>
+#include <concepts>
+
+#include "wordgaze/model/agent.hpp"
+
+namespace wordgaze::model {
+
+/// The network written a second time, as docs/math.md has it and the paper's text reads: one-hot
+/// cells, all 49 of them, one frame and one word at a time, no tables, no shortcut and no gradient.
+/// Slow. For reading, and for tests to hold Agent against.
+template <std::floating_point S>
+struct ReferenceAgent {
+  const Design& design;
+  const typename Agent<S>::Params& params;
+
+  static Vector<S> logistic(const Vector<S>& v) { return 1 / (1 + (-v.array()).exp()); }
+
+  /// (G1)-(G4): the text feature u [G] of a mission.
+  Vector<S> text(const babyai::Sentence& mission) const {
+    const auto& p = params.text;
+    const Index g = p.hidden_weight.cols();
+    Vector<S> h = Vector<S>::Zero(g);
+    for (const auto word : mission) {
+      const Vector<S> x = p.input_weight * params.words.col(word) + p.bias;
+      const Vector<S> u = p.hidden_weight * h;
+      const Vector<S> r = logistic(x.head(g) + u.head(g));
+      const Vector<S> z = logistic(x.segment(g, g) + u.segment(g, g));
+      const Vector<S> n =
+          (x.tail(g).array() + r.array() * (u.tail(g) + p.candidate_bias).array()).tanh();
+      h = (1 - z.array()) * n.array() + z.array() * h.array();
+    }
+    return h;
+  }
+
+  /// A convolution with square kernels of 1x1 or 3x3, zeros around the view, then the leaky ReLU.
+  Matrix<S> convolve(const Matrix<S>& weight, const Vector<S>& bias, const Matrix<S>& view) const {
+    const Index in = view.rows(), reach = weight.cols() == in ? 0 : 1;
+    const Index side = grid::kViewSize;
+    Matrix<S> out(weight.rows(), grid::kViewCells);
+    for (Index a = 0; a < side; ++a) {
+      for (Index b = 0; b < side; ++b) {
+        Vector<S> sum = bias;
+        Index tap = 0;
+        for (Index da = -reach; da <= reach; ++da) {
+          for (Index db = -reach; db <= reach; ++db, ++tap) {
+            if (a + da < 0 || a + da >= side || b + db < 0 || b + db >= side) continue;
+            sum += weight.middleCols(tap * in, in) * view.col((a + da) * side + b + db);
+          }
+        }
+        out.col(a * side + b) = sum.cwiseMax(static_cast<S>(design.config.encoder_leak) * sum);
+      }
+    }
+    return out;
+  }
+
+  /// (V)-(V3): the visual encoding O~ [C, 49] of a frame.
+  Matrix<S> encode(const Frames<S>& x, Index n) const {
+    Matrix<S> view = Matrix<S>::Zero(kCellFeatures, grid::kViewCells);
+    for (Index cell = 0; cell < grid::kViewCells; ++cell) {
+      for (const int row : features(design.alphabet[x.cells(cell, n)])) view(row, cell) = 1;
+    }
+    const auto& [cells, patches] = params.vision;
+    if (design.config.encoder == Encoder::cell) return convolve(cells.weight, cells.bias, view);
+    return convolve(patches.second.weight, patches.second.bias,
+                    convolve(patches.first.weight, patches.first.bias, view));
+  }
+
+  /// (A1)-(A6) and (T1)-(T3): what scales the encoding of each cell, s(M) [49].
+  Vector<S> scale(const Frames<S>& x, Index n, const Matrix<S>& encoding,
+                  const babyai::Sentence& mission) const {
+    const Config& c = design.config;
+    if (!c.attention) return Vector<S>::Ones(grid::kViewCells);
+    Matrix<S> maps(mission.length, grid::kViewCells);
+    Vector<S> entropy(mission.length);
+    for (int i = 0; i < mission.length; ++i) {
+      const auto word = mission.words[static_cast<std::size_t>(i)];
+      const Vector<S> q = params.attention.query * params.words.col(word);
+      for (Index cell = 0; cell < grid::kViewCells; ++cell) {
+        const Vector<S> k = params.attention.key * encoding.col(cell);
+        maps(i, cell) = std::exp(q.dot(k) / std::sqrt(static_cast<S>(c.key_size)));
+      }
+      maps.row(i) /= maps.row(i).sum();
+      entropy(i) = -(maps.row(i).array() * maps.row(i).array().log()).sum() /
+                   std::log(static_cast<S>(c.entropy_base));
+    }
+    Vector<S> w = (-entropy.array()).exp();
+    w /= w.sum();
+    if (c.task_attention) w.array() *= mask(x, n, w, mission).array();
+    const Vector<S> gaze = maps.transpose() * w;
+    const auto floor = static_cast<S>(c.gaze_floor);
+    return floor +
+           (1 - floor) *
+               (gaze.array() / (gaze.maxCoeff() + S(1e-6))).pow(static_cast<S>(c.gaze_exponent));
+  }
+
+  /// (T1)-(T3): alpha, a number a word.
+  Vector<S> mask(const Frames<S>& x, Index n, const Vector<S>& w,
+                 const babyai::Sentence& mission) const {
+    const Config& c = design.config;
+    const auto& p = params.task;
+    Vector<S> in = Vector<S>::Zero(p.hidden.weight.cols());
+    for (int i = 0; i < mission.length; ++i) {
+      const Index row = c.task_places ? i * c.word_size : 0;
+      in.segment(row, c.word_size) +=
+          w(i) * params.words.col(mission.words[static_cast<std::size_t>(i)]);
+    }
+    in.tail(c.sub_tasks) = x.completion.col(n);
+    const Vector<S> hidden = (p.hidden.weight * in + p.hidden.bias).cwiseMax(0);
+    const Vector<S> alpha = logistic(p.output.weight * hidden + p.output.bias);
+    return alpha.head(mission.length);
+  }
+
+  /// (M1)-(M4) and (H): logits over value, [8, N].
+  Matrix<S> run(const Frames<S>& x, const Missions& missions) const {
+    const Config& c = design.config;
+    const Index hidden = c.memory_size;
+    Matrix<S> out(grid::kActions + 1, x.shape.columns());
+    for (Index b = 0; b < x.shape.batch; ++b) {
+      Vector<S> h = x.start.h.col(b), memory = x.start.c.col(b);
+      for (Index t = 0; t < x.shape.steps; ++t) {
+        const Index n = x.shape.column(t, b);
+        if (x.keep(0, n) == 0) h.setZero(), memory.setZero();
+        const auto& mission = missions[x.mission(n)];
+        const Matrix<S> encoding = encode(x, n);
+        const Matrix<S> filtered = encoding * scale(x, n, encoding, mission).asDiagonal();
+        const auto& m = params.memory;
+        Vector<S> z = m.input_weight * filtered.reshaped() + m.hidden_weight * h + m.bias;
+        if (c.completion_input) z += params.completion * x.completion.col(n);
+        memory = logistic(z.segment(hidden, hidden)).array() * memory.array() +
+                 logistic(z.head(hidden)).array() * z.segment(2 * hidden, hidden).array().tanh();
+        h = logistic(z.tail(hidden)).array() * memory.array().tanh();
+        Vector<S> features(hidden + c.text_size);
+        features << h, text(mission);
+        const auto head = [&](const auto& p) -> Vector<S> {
+          return p.output.weight *
+                     (p.hidden.weight * features + p.hidden.bias).array().tanh().matrix() +
+                 p.output.bias;
+        };
+        out.col(n) << head(params.actor), head(params.critic);
+      }
+    }
+    return out;
+  }
+};
+
+}  // namespace wordgaze::model

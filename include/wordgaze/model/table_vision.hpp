@@ -1,0 +1,177 @@
+#pragma once
+#include <concepts>
+#include <tuple>
+
+#include "wordgaze/core/team.hpp"
+#include "wordgaze/model/cell_encoder.hpp"
+
+namespace wordgaze::model {
+
+/// Vision (vision.hpp) by an encoder that looks at one cell at a time. A view shows few codes, so
+/// whatever depends on one cell is a table over them, made once a version of the weights:
+///
+///     encodings  O~ of each code
+///     scores     of each word on each code
+///     input      (the columns of W_x of a cell) times (O~ of a code), for each cell and code
+///
+/// With the last the filtered view F = O~ * s(M) is never formed: W_x F is a sum over the 49 cells
+/// of s[code] times a column of the table; (F1)-(F2) in docs/math.md. Exact for any such encoder.
+///
+/// The entries of a map are the codes, filled up to whole packets with codes that are never in
+/// view: columns of odd length cost twice the time.
+template <std::floating_point S, template <class> class EncoderOf>
+struct TableVision {
+  using Encoder = EncoderOf<S>;
+  using Params = typename Encoder::Params;
+
+  struct Tables {
+    Matrix<S> encodings;  ///< [C, codes]
+    Matrix<S> scores;     ///< [P, V]; empty without attention
+    Matrix<S> input;      ///< [4 H, 49 codes]: column cell * codes + code
+    static constexpr auto fields() {
+      return std::tuple{nn::Field{"encodings", &Tables::encodings},
+                        nn::Field{"scores", &Tables::scores}, nn::Field{"input", &Tables::input}};
+    }
+  };
+  struct Cache {
+    Matrix<S> counts;  ///< [P, N] cells of each code in view
+  };
+
+  static void resize(const Design& d, Params& p) { Encoder::resize(d, p); }
+  static void resize(const Design& d, Tables& t) {
+    const Config& c = d.config;
+    t.encodings.setZero(c.channels, d.alphabet.size());
+    t.scores.setZero(c.attention ? entries(d) : 0, babyai::kVocabularySize);
+    t.input.setZero(4 * c.memory_size, grid::kViewCells * d.alphabet.size());
+  }
+  static void resize(const Design& d, Index frames, Cache& k) {
+    k.counts.resize(entries(d), frames);
+  }
+  static void initialize(const Design& d, core::Rng& rng, Params& p) {
+    Encoder::initialize(d, rng, p);
+  }
+  static void set_object_channel(const Design&, Params& p) { Encoder::set_object_channel(p); }
+
+  static Index entries(const Design& d) {
+    constexpr Index kPacket = 16;
+    return (d.alphabet.size() + kPacket - 1) / kPacket * kPacket;
+  }
+  static Index entry(const Design&, const CellMatrix& cells, Index cell, Index n) {
+    return cells(cell, n);
+  }
+  static auto encoding(const Design&, const Tables& t, const Cache&, const CellMatrix& cells,
+                       Index cell, Index n) {
+    return t.encodings.col(cells(cell, n));
+  }
+
+  static void refresh(const Design& d, const Params& p, In<S> probes, In<S> input_weight, Tables& t,
+                      Team& team) {
+    Encoder::forward(d, p, t.encodings);
+    if (d.config.attention) {
+      t.scores.topRows(d.alphabet.size()).noalias() = t.encodings.transpose() * probes;
+    }
+    const Index channels = t.encodings.rows(), codes = t.encodings.cols();
+    team.run([&](int w) {
+      const auto [from, to] = team.share(grid::kViewCells, w);
+      for (Index c = from; c < to; ++c) {
+        t.input.middleCols(c * codes, codes).noalias() =
+            input_weight.middleCols(c * channels, channels) * t.encodings;
+      }
+    });
+  }
+
+  static void forward(const Design&, const Params&, const Tables&, const CellMatrix&, Cache&) {}
+
+  template <class F>
+  static void with_scores(const Design&, const Tables& t, In<S> /*probes*/, const CellMatrix& cells,
+                          Cache& k, F&& f) {
+    k.counts.setZero();
+    for (Index n = 0; n < cells.cols(); ++n) {
+      for (Index c = 0; c < grid::kViewCells; ++c) k.counts(cells(c, n), n) += S(1);
+    }
+    f(k.counts, [&](Index, Index word) { return t.scores.col(word); });
+  }
+
+  // Cells outside, frames inside: the few columns of a cell that frames ask for stay in the cache,
+  // the whole table (about a megabyte) does not.
+
+  /// Seven cells are added in one pass over the column.
+  static void read(const Design&, const Tables& t, In<S> /*input_weight*/, const CellMatrix& cells,
+                   In<S> scale, Cache&, Out<S> product) {
+    const Index codes = t.encodings.cols();
+    for (Index c = 0; c < grid::kViewCells; c += grid::kViewSize) {
+      for (Index n = 0; n < cells.cols(); ++n) {
+        auto y = product.col(n);
+        const auto term = [&](Index k) {
+          const Index code = cells(c + k, n);
+          return scale(code, n) * t.input.col((c + k) * codes + code);
+        };
+        const auto row =
+            (((term(0) + term(1)) + (term(2) + term(3))) + ((term(4) + term(5)) + term(6)));
+        if (c == 0) {
+          y = row;
+        } else {
+          y += row;
+        }
+      }
+    }
+  }
+  static void read_backward(const Design&, const Tables& t, In<S> /*input_weight*/,
+                            const CellMatrix& cells, In<S> scale, In<S> dproduct, Cache&,
+                            Matrix<S>& /*dinput_weight*/, Tables& dt, Out<S> dscale) {
+    const Index codes = t.encodings.cols();
+    dscale.setZero();
+    for (Index c = 0; c < grid::kViewCells; ++c) {
+      for (Index n = 0; n < cells.cols(); ++n) {
+        const auto dy = dproduct.col(n);
+        const Index code = cells(c, n), column = c * codes + code;
+        dscale(code, n) += t.input.col(column).dot(dy);
+        dt.input.col(column) += scale(code, n) * dy;
+      }
+    }
+  }
+
+  template <class F>
+  static void with_score_gradients(const Design&, const Tables&, In<S> /*probes*/, Cache& k,
+                                   Tables& dt, Matrix<S>& /*dprobes*/, F&& f) {
+    f(k.counts, [&](Index, Index word, const auto& dscore) { dt.scores.col(word) += dscore; });
+  }
+
+  static void backward(const Design&, const Params&, const Tables&, const CellMatrix&, Cache&,
+                       Params&, Tables&) {}
+
+  static bool input_weight_from_tables(const Design&) { return true; }
+
+  /// The gradient of the large table, cells shared out to the team: each worker writes what it asks
+  /// of the encodings into a table of its own.
+  template <class TablesOf>
+  static void reduce(const Design&, const Tables& t, In<S> input_weight, TablesOf&& dtables_of,
+                     Out<S> dinput_weight, Team& team) {
+    const Index channels = t.encodings.rows(), codes = t.encodings.cols();
+    Tables& sum = dtables_of(0);
+    team.run([&](int w) {
+      const auto [from, to] = team.share(grid::kViewCells, w);
+      Tables& own = dtables_of(w);
+      for (Index c = from; c < to; ++c) {
+        const auto dinput = sum.input.middleCols(c * codes, codes);
+        dinput_weight.middleCols(c * channels, channels).noalias() +=
+            dinput * t.encodings.transpose();
+        own.encodings.noalias() +=
+            input_weight.middleCols(c * channels, channels).transpose() * dinput;
+      }
+    });
+    for (int w = 1; w < team.size(); ++w) sum.encodings += dtables_of(w).encodings;
+  }
+
+  static void tables_backward(const Design& d, const Tables& t, In<S> probes, Tables& dt,
+                              Matrix<S>& dprobes, Params& grads) {
+    if (d.config.attention) {
+      const auto dscores = dt.scores.topRows(d.alphabet.size());
+      dprobes.noalias() += t.encodings * dscores;
+      dt.encodings.noalias() += probes * dscores.transpose();
+    }
+    Encoder::backward(d, t.encodings, dt.encodings, grads);
+  }
+};
+
+}  // namespace wordgaze::model

@@ -1,0 +1,74 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "wordgaze/babyai/sentence.hpp"
+#include "wordgaze/grid/observation.hpp"
+
+/// What training and evaluation tell whoever listens: LCM, pictures, logs. The records are views
+/// into the caller's buffers and live for one call.
+namespace wordgaze::policy {
+
+struct EpisodeBegin {
+  std::int64_t episode = 0;  ///< unique in one run, increasing
+  int lane = 0;              ///< which of the parallel environments
+  std::string_view env_id;
+  std::uint64_t seed = 0;  ///< seed of this reset; 0 when the stream was continued
+  const babyai::Sentence& sentence;
+  std::string_view mission;
+  int max_steps = 0;
+};
+
+/// One decision: what was seen, where the agent looked, what it did and what came of it.
+struct StepRecord {
+  std::int64_t episode = 0;
+  int lane = 0;
+  int step = 0;  ///< 0-based within the episode
+  const std::array<std::uint8_t, grid::kImageBytes>& image;
+  int direction = 0;
+  int agent_x = -1, agent_y = -1;
+  int action = 0;
+  float value = 0, entropy = 0, reward = 0;
+  bool terminated = false, truncated = false;
+  std::span<const float> logits{};        ///< one per action
+  std::span<const float> word_weights{};  ///< w, one per word of the mission; sums to 1
+  std::span<const float> word_mask{};     ///< alpha in [0,1], one per word; ones without the module
+  std::span<const float> word_attention{};  ///< A, 49 per word, row by row; each row sums to 1
+  std::span<const float>
+      attention_map{};  ///< M = sum_i alpha_i w_i A_i, 49; empty for the baseline
+};
+
+struct EpisodeEnd {
+  std::int64_t episode = 0;
+  int lane = 0;
+  int steps = 0;
+  double episode_return = 0;
+  bool success = false, truncated = false;
+};
+
+/// Named scalars of one update: an open set, the columns of metrics.csv.
+struct Scalar {
+  std::string_view name;
+  double value;
+};
+struct UpdateRecord {
+  std::int64_t update = 0, frames = 0;
+  std::span<const Scalar> scalars;
+};
+
+/// Listener; every call is optional. Called from one thread, in order.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// Asked once an episode: are the steps of this one wanted? The records cost time to fill.
+  virtual bool wants_episode(std::int64_t /*episode*/) { return false; }
+  virtual void on_begin(const EpisodeBegin&) {}
+  virtual void on_step(const StepRecord&) {}
+  virtual void on_end(const EpisodeEnd&) {}
+  virtual void on_update(const UpdateRecord&) {}
+};
+
+}  // namespace wordgaze::policy

@@ -1,3 +1,0 @@
-#include "wordgaze/model/agent_impl.hpp"
-
-template struct wordgaze::model::Agent<float>;

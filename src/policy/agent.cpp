@@ -1,0 +1,3 @@
+#include "wordgaze/model/agent.hpp"
+
+template struct wordgaze::model::Agent<float>;

@@ -1,0 +1,71 @@
+#include "wordgaze/training/loss.hpp"
+
+#include <array>
+
+#include "wordgaze/training/mask_loss.hpp"
+#include "wordgaze/training/ppo_loss.hpp"
+
+namespace wordgaze::training {
+namespace {
+
+class PpoTerm final : public Loss {
+ public:
+  explicit PpoTerm(const PpoConfig& ppo) : ppo_(ppo) {}
+
+  std::span<const std::string_view> reports() const override { return kReports; }
+
+  void add(const Batch& batch, const model::Outputs<float>& outputs, const Rates& rates,
+           float scale, model::Outputs<float>& gradient, std::span<double> sums) const override {
+    const PpoLoss<float> loss{
+        .clip = static_cast<float>(ppo_.clip),
+        .value_coefficient = static_cast<float>(ppo_.value_coefficient),
+        .entropy_coefficient = static_cast<float>(rates.entropy_coefficient)};
+    PpoLoss<float>::Sums sum;
+    for (Index n = 0; n < outputs.logits.cols(); ++n) {
+      const auto i = static_cast<std::size_t>(n);
+      loss.add({.action = batch.action[i],
+                .old_log_prob = batch.log_prob[i],
+                .advantage = batch.advantage[i],
+                .value_target = batch.value_target[i]},
+               {outputs.logits.col(n).data(), grid::kActions}, outputs.values(0, n), scale,
+               {gradient.logits.col(n).data(), grid::kActions}, gradient.values(0, n), sum);
+    }
+    const std::array numbers{sum.policy, sum.value, sum.entropy, sum.divergence, sum.clipped};
+    for (std::size_t k = 0; k < numbers.size(); ++k) sums[k] += numbers[k];
+  }
+
+ private:
+  static constexpr std::array<std::string_view, 5> kReports{"policy_loss", "value_loss", "entropy",
+                                                            "kl", "clip_fraction"};
+  PpoConfig ppo_;
+};
+
+class MaskTerm final : public Loss {
+ public:
+  explicit MaskTerm(double coefficient) : coefficient_(coefficient) {}
+
+  std::span<const std::string_view> reports() const override { return kReports; }
+
+  void add(const Batch& batch, const model::Outputs<float>& outputs, const Rates&, float scale,
+           model::Outputs<float>& gradient, std::span<double> sums) const override {
+    for (Index n = 0; n < outputs.mask.cols(); ++n) {
+      sums[0] += mask_loss(batch.mission(n), batch.bright[static_cast<std::size_t>(n)],
+                           outputs.mask.col(n), scale * coefficient_, gradient.mask.col(n));
+    }
+  }
+
+ private:
+  static constexpr std::array<std::string_view, 1> kReports{"mask_loss"};
+  double coefficient_;
+};
+
+}  // namespace
+
+Losses make_losses(const model::Config& model, const PpoConfig& ppo) {
+  Losses losses;
+  losses.push_back(std::make_unique<PpoTerm>(ppo));
+  if (model.task_attention) losses.push_back(std::make_unique<MaskTerm>(ppo.mask_coefficient));
+  return losses;
+}
+
+}  // namespace wordgaze::training
