@@ -1,15 +1,21 @@
 // bench: how fast the simulator, training and a single decision are on this machine. The last line
 // of the output is one JSON object.
-#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <ctime>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
+#include <string>
+#include <vector>
 
+#include "command.hpp"
 #include "wordgaze/env/vector_env.hpp"
 #include "wordgaze/io/config_file.hpp"
-#include "wordgaze/nn/categorical.hpp"
-#include "wordgaze/rl/alphabet.hpp"
+#include "wordgaze/policy/environment.hpp"
 #include "wordgaze/training/trainer.hpp"
 
 namespace {
@@ -24,9 +30,7 @@ struct Arguments {
   std::int64_t steps = 0, frames = 0;  // 0: as many as fit in `seconds`
 };
 
-Arguments parse(int argc, char** argv) {
-  Arguments a;
-  CLI::App app{"Measures rates. Rates per CPU second do not suffer from a shared machine."};
+void add_options(CLI::App& app, Arguments& a) {
   auto* what = app.add_option_group("what to measure");
   what->add_option("--sim", a.sim, "environment id: steps with random actions, views and resets");
   what->add_option("--reset", a.reset, "environment id: new episodes of one environment, no views");
@@ -40,12 +44,6 @@ Arguments parse(int argc, char** argv) {
   app.add_option("--frames", a.frames, "of --train, in place of --seconds: at least")
       ->check(CLI::Range(1, 1'000'000'000));
   app.add_option("--threads", a.threads, "workers")->check(CLI::Range(1, 256));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error));
-  }
-  return a;
 }
 
 /// Wall and CPU time (of all threads) since its making.
@@ -128,10 +126,10 @@ Json reset(const Arguments& a) {
 }
 
 Json train(const Arguments& a) {
-  auto config = io::read_config<rl::TrainConfig>(a.train);
+  auto config = io::read_config<training::TrainConfig>(a.train);
   config.threads = a.threads;
   config.frames = std::max(config.frames, a.frames);  // the schedules of a whole run
-  rl::Trainer trainer(config);
+  training::Trainer trainer(config);
   trainer.update();  // sizes every cache
   const std::int64_t before = trainer.frames();
   const Stopwatch watch;
@@ -142,34 +140,26 @@ Json train(const Arguments& a) {
 }
 
 Json act(const Arguments& a) {
-  using Choice = nn::Categorical<float>;
-  const auto config = io::read_config<rl::TrainConfig>(a.act);
-  const auto level = babyai::find_level(config.env);
-  const rl::Trainer trainer(config);
-  const rl::Agent& agent = trainer.agent();
-  auto tables = agent.make_tables();
-  agent.update_all_tables(trainer.params(), tables);
-  env::Environment environment(level);
-  rl::Actor actor(agent, 1);
+  const auto config = io::read_config<training::TrainConfig>(a.act);
+  const training::Trainer trainer(config);
+  policy::NetworkPolicy<policy::Agent> agent(trainer.agent(), trainer.weights());
+  env::Environment environment(trainer.level());
+  policy::Observation observation;
   core::Rng rng(1);
   environment.reset(0);
-  actor.begin(0, environment.sentence());
   std::vector<double> micros;
   const Stopwatch watch;
   while (watch.wall() < a.seconds) {
     const auto begin = std::chrono::steady_clock::now();
-    actor.observe(0, environment);
-    actor.decide(trainer.params(), tables);
-    std::array<float, grid::kActions> log_p;
-    Choice::log_softmax({actor.cache().logits().data(), grid::kActions}, log_p);
-    const auto action = Choice::sample(log_p, static_cast<float>(rng.uniform()));
-    actor.advance();
+    policy::observe(environment, observation);
+    agent.observe(0, observation);
+    const auto action = agent.decide(policy::Sampled{rng})[0].as_action();
     const std::chrono::duration<double, std::micro> time = std::chrono::steady_clock::now() - begin;
     micros.push_back(time.count());
-    const auto transition = environment.step(static_cast<grid::Action>(action));
+    const auto transition = environment.step(action);
     if (transition.terminated || transition.truncated) {
       environment.reset();
-      actor.begin(0, environment.sentence());
+      agent.begin(0);
     }
   }
   std::sort(micros.begin(), micros.end());
@@ -184,19 +174,24 @@ Json act(const Arguments& a) {
   return json;
 }
 
+int run(const Arguments& a) {
+  const Json json = !a.sim.empty()     ? simulate(a)
+                    : !a.reset.empty() ? reset(a)
+                    : !a.train.empty() ? train(a)
+                                       : act(a);
+  fmt::print("{}\n", json.dump());
+  return 0;
+}
+
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    const Arguments a = parse(argc, argv);
-    const Json json = !a.sim.empty()     ? simulate(a)
-                      : !a.reset.empty() ? reset(a)
-                      : !a.train.empty() ? train(a)
-                                         : act(a);
-    fmt::print("{}\n", json.dump());
-    return 0;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "bench: {}\n", error.what());
-    return 1;
-  }
+wordgaze::apps::Command wordgaze::apps::bench_command() {
+  return {"bench",
+          "Measures rates: of the simulator, of training, of a single decision. Rates per CPU\n"
+          "second do not suffer from a shared machine. The last line is one JSON object.",
+          [](CLI::App& app) {
+            const auto arguments = std::make_shared<Arguments>();
+            add_options(app, *arguments);
+            return [arguments] { return run(*arguments); };
+          }};
 }

@@ -1,23 +1,33 @@
 // eval: how well a trained agent does, in the room it knows and in others, and where it looks.
-#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <regex>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
+#include "command.hpp"
 #include "listeners.hpp"
 #include "pictures.hpp"
 #include "transparency_report.hpp"
+#include "wordgaze/bot/policy.hpp"
 #include "wordgaze/evaluation/evaluator.hpp"
-#include "wordgaze/io/checkpoint.hpp"
 #include "wordgaze/io/file.hpp"
-#include "wordgaze/rl/alphabet.hpp"
+#include "wordgaze/training/checkpoint.hpp"
 
 namespace {
 
 using namespace wordgaze;
+using evaluation::Evaluation;
 
 struct Arguments {
-  std::string checkpoint, env, json, pictures;
+  std::string checkpoint, policy, env, json, pictures;
   std::vector<int> rooms, objects;
   int episodes = 1000;
   std::uint64_t seed = 1'000'000;
@@ -26,14 +36,13 @@ struct Arguments {
   apps::Listeners::Options listeners;
 };
 
-Arguments parse(int argc, char** argv) {
-  Arguments a;
-  CLI::App app{
-      "Evaluates a trained agent: a table on the terminal, one row a setting and policy.\n"
-      "Without --greedy and --sample both policies are measured."};
-  app.set_version_flag("--version", WORDGAZE_VERSION);
-  app.add_option("--checkpoint", a.checkpoint, "file that train has written")->required();
-  app.add_option("--rooms", a.rooms, "room sizes N in place of the trained one, as 8,10,12")
+void add_options(CLI::App& app, Arguments& a) {
+  auto* who = app.add_option_group("who acts");
+  who->add_option("--checkpoint", a.checkpoint, "an agent: file that train has written");
+  who->add_option("--policy", a.policy, "bot: BabyAI's expert, random, or mixed; wants --env")
+      ->check(CLI::IsMember({"bot", "random", "mixed"}));
+  who->require_option(1);
+  app.add_option("--rooms", a.rooms, "room sizes N in place of the level's own, as 8,10,12")
       ->delimiter(',');
   app.add_option("--objects", a.objects, "numbers of objects K, as 4,8,12")->delimiter(',');
   app.add_option("--env", a.env, "environment in place of the one trained in");
@@ -48,37 +57,26 @@ Arguments parse(int argc, char** argv) {
   app.add_option("--pictures", a.pictures, "folder for pictures of the attention (PNG)");
   app.add_option("--lcm-log", a.listeners.log, "LCM log of every step");
   app.add_option("--lcm-url", a.listeners.url, "publish the same live, as udpm://");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error));
-  }
-  return a;
 }
 
-/// The id with other room sizes and numbers of objects; only Wordgaze's ids have them.
-std::vector<std::string> settings(const Arguments& a, const std::string& trained) {
-  const std::string base = a.env.empty() ? trained : a.env;
-  if (a.rooms.empty() && a.objects.empty()) return {base};
-  static const std::regex pattern(R"((Wordgaze-\w+)-N(\d+)-K(\d+)(-auto)?-v0)");
-  std::smatch match;
-  require(std::regex_match(base, match, pattern),
-          "--rooms and --objects change the N and K of a Wordgaze-*-N*-K*-v0 id; '{}' has none; "
-          "give --env",
-          base);
-  const auto or_own = [&](const std::vector<int>& wanted, int group) {
-    return wanted.empty() ? std::vector{std::stoi(match[group])} : wanted;
-  };
-  std::vector<std::string> ids;
-  for (const int room : or_own(a.rooms, 2)) {
-    for (const int objects : or_own(a.objects, 3)) {
-      ids.push_back(fmt::format("{}-N{}-K{}{}-v0", match[1].str(), room, objects, match[4].str()));
+/// The level with other room sizes and numbers of objects.
+std::vector<babyai::LevelSpec> settings(const Arguments& a, const babyai::LevelSpec& level) {
+  std::vector<babyai::LevelSpec> levels{level};
+  const auto vary = [&](const std::vector<int>& wanted, auto&& change) {
+    if (wanted.empty()) return;
+    std::vector<babyai::LevelSpec> varied;
+    for (const auto& each : levels) {
+      for (const int value : wanted) varied.push_back(change(each, value));
     }
-  }
-  return ids;
+    levels = std::move(varied);
+  };
+  // Objects last, for what fits depends on the room.
+  vary(a.rooms, babyai::with_room);
+  vary(a.objects, babyai::with_objects);
+  return levels;
 }
 
-nlohmann::ordered_json to_json(const rl::Breakdown::Counts& counts) {
+nlohmann::ordered_json to_json(const evaluation::Breakdown::Counts& counts) {
   nlohmann::ordered_json json;
   for (const auto& [key, count] : counts) {
     json[key] = {{"episodes", count.episodes}, {"success_rate", count.success_rate()}};
@@ -86,13 +84,16 @@ nlohmann::ordered_json to_json(const rl::Breakdown::Counts& counts) {
   return json;
 }
 
-nlohmann::ordered_json record(const std::string& id, const rl::Evaluation& evaluation,
-                              const rl::EvaluationResult& r, const rl::Interval& ci) {
+nlohmann::ordered_json record(const Evaluation& evaluation, const char* policy,
+                              const evaluation::EvaluationResult& r) {
   const auto& level = evaluation.level;
-  return {{"env", id},
+  const auto ci = evaluation::wilson_interval(r.successes, r.episodes);
+  const auto objects = babyai::objects(level);
+  const auto& hit = r.pointing.target;
+  return {{"env", level.id},
           {"room", level.room_size},
-          {"objects", level.objects},
-          {"policy", evaluation.greedy ? "greedy" : "sampled"},
+          {"objects", objects ? nlohmann::ordered_json(*objects) : nullptr},
+          {"policy", policy},
           {"episodes", r.episodes},
           {"seed", evaluation.seed},
           {"success_rate", r.success_rate()},
@@ -101,15 +102,32 @@ nlohmann::ordered_json record(const std::string& id, const rl::Evaluation& evalu
           {"mean_steps", r.mean_steps()},
           {"done_wrong", r.done_wrong},
           {"truncated", r.truncated},
-          {"hit", r.hits.seen > 0 ? nlohmann::ordered_json(r.hits.rate()) : nullptr},
+          {"hit", hit.count > 0 ? nlohmann::ordered_json(hit.value()) : nullptr},
           {"by_verb", to_json(r.breakdown.by_verb)},
           {"by_join", to_json(r.breakdown.by_join)},
           {"by_clauses", to_json(r.breakdown.by_clauses)},
           {"by_object", to_json(r.breakdown.by_object)}};
 }
 
+void print_head() {
+  fmt::print("{:<30} {:>7} {:>8} {:>8}  {:<15} {:>7} {:>6} {:>6} {:>6} {:>6}\n", "environment",
+             "policy", "episodes", "success", "95 % interval", "reward", "steps", "wrong",
+             "time up", "hit");
+}
+
+void print_row(const Evaluation& evaluation, const char* policy,
+               const evaluation::EvaluationResult& r) {
+  const auto ci = evaluation::wilson_interval(r.successes, r.episodes);
+  fmt::print(
+      "{:<30} {:>7} {:>8} {:>7.1f}%  [{:>5.1f}, {:>5.1f}] {:>8.3f} {:>6.1f} {:>6} {:>7} "
+      "{:>6.3f}\n",
+      evaluation.level.id, policy, r.episodes, 100 * r.success_rate(), 100 * ci.low,
+      100 * ci.high, r.mean_reward(), r.mean_steps(), r.done_wrong, r.truncated,
+      r.pointing.target.value());
+}
+
 /// Where missions join clauses: success by the words that do.
-void print_joins(const rl::Breakdown& breakdown) {
+void print_joins(const evaluation::Breakdown& breakdown) {
   if (breakdown.by_join.size() < 2) return;
   fmt::print("  success by join:");
   for (const auto& [join, count] : breakdown.by_join) {
@@ -118,71 +136,96 @@ void print_joins(const rl::Breakdown& breakdown) {
   fmt::print("\n");
 }
 
-int run(Arguments a) {
-  const rl::TrainConfig config = io::load_config(a.checkpoint);
-  const auto params = io::load_params(a.checkpoint, config.model);
+/// A team of as many workers as were asked for.
+int threads(const Arguments& a) {
+  return a.threads > 0 ? a.threads
+                       : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+/// A trained agent in each setting, with each policy that is wanted.
+void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
+  const training::TrainConfig config = training::load_config(a.checkpoint);
+  const auto trained = policy::TrainedAgent::load(a.checkpoint);
   if (!a.greedy && !a.sample) a.greedy = a.sample = true;
 
-  // Every id is looked up before the first episode: a typing error should not cost an hour.
-  std::vector<rl::Evaluation> evaluations;
-  for (const auto& id : settings(a, config.env)) {
-    const auto level = babyai::find_level(id);
-    for (const bool greedy : {false, true}) {
-      if (greedy ? !a.greedy : !a.sample) continue;
-      evaluations.push_back(
-          {.level = level, .episodes = a.episodes, .seed = a.seed, .greedy = greedy});
-    }
-  }
+  // Every level is made before the first episode: a typing error should not cost an hour.
+  const auto levels = settings(a, babyai::find_level(a.env.empty() ? config.env : a.env));
   a.listeners.run_id = "eval";
   a.listeners.checkpoint = a.checkpoint;
   apps::Listeners listeners(a.listeners);
-  Team team(a.threads > 0 ? a.threads
-                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
-
-  nlohmann::ordered_json report{{"checkpoint", a.checkpoint},
-                                {"settings", nlohmann::ordered_json::array()}};
-  fmt::print("{:<30} {:>7} {:>8} {:>8}  {:<15} {:>7} {:>6} {:>6} {:>6} {:>6}\n", "environment",
-             "policy", "episodes", "success", "95 % interval", "reward", "steps", "wrong",
-             "time up", "hit");
-  for (const auto& evaluation : evaluations) {
-    const rl::Agent agent{config.model, rl::alphabet_of(evaluation.level)};
-    std::optional<explain::Transparency> transparency;
-    if (a.transparency) transparency.emplace(agent, params, config.ppo.mask_truth);
-    const auto r = rl::evaluate(
-        agent, params, evaluation, team,
-        {.observer = listeners.observer(), .witness = transparency ? &*transparency : nullptr});
-    const auto ci = rl::wilson_interval(r.successes, r.episodes);
-    fmt::print(
-        "{:<30} {:>7} {:>8} {:>7.1f}%  [{:>5.1f}, {:>5.1f}] {:>8.3f} {:>6.1f} {:>6} {:>7} "
-        "{:>6.3f}\n",
-        evaluation.level.id, evaluation.greedy ? "greedy" : "sampled", r.episodes,
-        100 * r.success_rate(), 100 * ci.low, 100 * ci.high, r.mean_reward(), r.mean_steps(),
-        r.done_wrong, r.truncated, r.hits.rate());
-    print_joins(r.breakdown);
-    report["settings"].push_back(record(evaluation.level.id, evaluation, r, ci));
-    if (transparency) {
-      apps::print(*transparency);
-      report["settings"].back()["transparency"] = apps::to_json(*transparency);
+  Team team(threads(a));
+  for (const auto& level : levels) {
+    const policy::Agent agent(config.model, policy::alphabet_of(level));
+    const auto weights = agent.make_weights(trained.weights.params);
+    for (const bool greedy : {false, true}) {
+      if (greedy ? !a.greedy : !a.sample) continue;
+      const Evaluation evaluation{
+          .level = level, .episodes = a.episodes, .seed = a.seed, .greedy = greedy};
+      const char* policy = greedy ? "greedy" : "sampled";
+      std::optional<evaluation::Transparency> transparency;
+      if (a.transparency) transparency.emplace(config.model, config.ppo.mask_truth);
+      const auto r = evaluation::evaluate(
+          evaluation::policy_factory(agent, weights), evaluation, team,
+          {.episodes = listeners.observer(), .decisions = transparency ? &*transparency : nullptr});
+      print_row(evaluation, policy, r);
+      print_joins(r.breakdown);
+      report["settings"].push_back(record(evaluation, policy, r));
+      if (transparency) {
+        apps::print(*transparency);
+        report["settings"].back()["transparency"] = apps::to_json(*transparency);
+      }
+      std::fflush(stdout);
     }
-    std::fflush(stdout);
   }
-  if (!a.json.empty()) io::write_file(a.json, report.dump(2) + "\n");
   if (!a.pictures.empty()) {
-    const auto& level = evaluations.front().level;
-    const rl::Agent agent{config.model, rl::alphabet_of(level)};
-    const int count = apps::draw_pictures(agent, params, level, a.seed, a.pictures);
+    const int count =
+        apps::draw_pictures(config.model, trained.weights.params, levels.front(), a.seed, a.pictures);
     fmt::print("{} pictures in {}\n", count, a.pictures);
   }
+}
+
+/// The bot or the random policy, for comparison.
+void evaluate_policy(const Arguments& a, nlohmann::ordered_json& report) {
+  require(!a.env.empty(), "--policy {} wants --env ID: in which environment?", a.policy);
+  const bool attention = a.transparency || !a.pictures.empty() || !a.listeners.log.empty() ||
+                         !a.listeners.url.empty() || a.greedy || a.sample;
+  require(!attention,
+          "--policy {}: --greedy, --sample, --transparency, --pictures, --lcm-log and --lcm-url are "
+          "for agents, which have a policy and attention to show; leave them out",
+          a.policy);
+  Team team(threads(a));
+  for (const auto& level : settings(a, babyai::find_level(a.env))) {
+    const Evaluation evaluation{.level = level, .episodes = a.episodes, .seed = a.seed};
+    const auto r = evaluation::evaluate(bot::policy_maker(a.policy), evaluation, team);
+    print_row(evaluation, a.policy.c_str(), r);
+    print_joins(r.breakdown);
+    report["settings"].push_back(record(evaluation, a.policy.c_str(), r));
+    std::fflush(stdout);
+  }
+}
+
+int run(const Arguments& a) {
+  nlohmann::ordered_json report{{"checkpoint", a.checkpoint},
+                                {"settings", nlohmann::ordered_json::array()}};
+  print_head();
+  if (a.policy.empty()) {
+    evaluate_agent(a, report);
+  } else {
+    evaluate_policy(a, report);
+  }
+  if (!a.json.empty()) io::write_file(a.json, report.dump(2) + "\n");
   return 0;
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return run(parse(argc, argv));
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "eval: {}\n", error.what());
-    return 1;
-  }
+wordgaze::apps::Command wordgaze::apps::eval_command() {
+  return {"eval",
+          "Evaluates a trained agent: a table on the terminal, one row a setting and policy.\n"
+          "Without --greedy and --sample both policies are measured.",
+          [](CLI::App& app) {
+            const auto arguments = std::make_shared<Arguments>();
+            add_options(app, *arguments);
+            return [arguments] { return run(*arguments); };
+          }};
 }

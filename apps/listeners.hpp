@@ -14,7 +14,7 @@
 namespace wordgaze::apps {
 
 /// What --lcm-log and --lcm-url ask for: every listener hears the same.
-class Listeners final : public rl::Observer {
+class Listeners final : public policy::Observer {
  public:
   struct Options {
     std::string log, url;    ///< empty: not wanted
@@ -58,28 +58,28 @@ class Listeners final : public rl::Observer {
   }
 
   /// Null when nobody listens: records need not be made.
-  rl::Observer* observer() { return listeners_.empty() ? nullptr : this; }
+  policy::Observer* observer() { return listeners_.empty() ? nullptr : this; }
 
   bool wants_episode(std::int64_t episode) override {
     bool wanted = false;
     for (const auto& l : listeners_) wanted = l->wants_episode(episode) || wanted;
     return wanted;
   }
-  void on_begin(const rl::EpisodeBegin& r) override {
+  void on_begin(const policy::EpisodeBegin& r) override {
     for (const auto& l : listeners_) l->on_begin(r);
   }
-  void on_step(const rl::StepRecord& r) override {
+  void on_step(const policy::StepRecord& r) override {
     for (const auto& l : listeners_) l->on_step(r);
   }
-  void on_end(const rl::EpisodeEnd& r) override {
+  void on_end(const policy::EpisodeEnd& r) override {
     for (const auto& l : listeners_) l->on_end(r);
   }
-  void on_update(const rl::UpdateRecord& r) override {
+  void on_update(const policy::UpdateRecord& r) override {
     for (const auto& l : listeners_) l->on_update(r);
   }
 
  private:
-  std::vector<std::unique_ptr<rl::Observer>> listeners_;
+  std::vector<std::unique_ptr<policy::Observer>> listeners_;
 #if WORDGAZE_WITH_LCM
   const lcm_io::LivePublisher* live_ = nullptr;
 #endif

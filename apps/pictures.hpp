@@ -5,15 +5,15 @@
 #include <vector>
 
 #include "wordgaze/draw/decision_figure.hpp"
-#include "wordgaze/nn/categorical.hpp"
-#include "wordgaze/policy/recorder.hpp"
-#include "wordgaze/rl/gaze_hits.hpp"
+#include "wordgaze/evaluation/episode.hpp"
+#include "wordgaze/evaluation/roles.hpp"
+#include "wordgaze/policy/environment.hpp"
 
 namespace wordgaze::apps {
 
 /// Draws the decisions of an episode that tell most: the first, the one at which a target comes
 /// into view, the one after a sub-task is completed, and the last.
-class Painter final : public rl::Observer {
+class Painter final : public policy::Observer {
  public:
   Painter(std::filesystem::path folder, const env::Environment& environment)
       : folder_(std::move(folder)), environment_(&environment) {}
@@ -32,14 +32,14 @@ class Painter final : public rl::Observer {
   }
 
   bool wants_episode(std::int64_t) override { return true; }
-  void on_begin(const rl::EpisodeBegin& begin) override {
+  void on_begin(const policy::EpisodeBegin& begin) override {
     episode_ = begin.episode;
     seen_ = false;
     const babyai::Progress progress = environment_->progress();
     const auto completion = progress.completion();
     completion_.assign(completion.begin(), completion.end());
   }
-  void on_step(const rl::StepRecord& step) override {
+  void on_step(const policy::StepRecord& step) override {
     const bool last = step.terminated || step.truncated;
     if (step.step > 0 && !comes_into_view_ && !completed_ && !last) return;
     const auto image = draw::decision_figure(
@@ -61,38 +61,30 @@ class Painter final : public rl::Observer {
 };
 
 /// Pictures of a few episodes of a level into a folder; returns how many.
-inline int draw_pictures(const rl::Agent& agent, const rl::Agent::Params& params,
+inline int draw_pictures(const model::Config& config, const policy::Agent::Params& params,
                          const babyai::LevelSpec& level, std::uint64_t seed,
                          const std::filesystem::path& folder) {
   constexpr int kEpisodes = 6;
-  using Choice = nn::Categorical<float>;
   std::filesystem::create_directories(folder);
-  auto tables = agent.make_tables();
-  agent.update_all_tables(params, tables);
-  env::Environment environment(level);
-  rl::Actor actor(agent, 1);
-  Painter painter(folder, environment);
-  rl::Recorder recorder(painter);
-  for (int episode = 0; episode < kEpisodes; ++episode) {
-    const std::uint64_t world = seed + static_cast<std::uint64_t>(episode);
-    environment.reset(world);
+  const policy::Agent agent(config, policy::alphabet_of(level));
+  const auto weights = agent.make_weights(params);
+  policy::NetworkPolicy<policy::Agent> policy(agent, weights);
+  evaluation::Episode episode{env::Environment(level)};
+  Painter painter(folder, episode.environment);
+  for (int number = 0; number < kEpisodes; ++number) {
+    const std::uint64_t world = seed + static_cast<std::uint64_t>(number);
+    episode.environment.reset(world);
     core::Rng rng(world);
-    actor.begin(0, environment.sentence());
-    recorder.begin(episode, 0, world, environment);
-    for (env::Transition now; !now.terminated && !now.truncated;) {
-      actor.observe(0, environment);
-      actor.decide(params, tables);
-      actor.advance();
-      std::array<float, grid::kActions> log_p;
-      Choice::log_softmax({actor.cache().logits().data(), grid::kActions}, log_p);
-      const auto action = Choice::sample(log_p, static_cast<float>(rng.uniform()));
-      rl::GazeHits hits;
-      hits.add(agent, actor, 0, environment);
-      painter.look(hits.seen > 0);
-      recorder.decide(agent, actor, 0, environment, static_cast<int>(action),
-                      Choice::entropy(log_p));
-      now = environment.step(static_cast<grid::Action>(action));
-      recorder.step(now);
+    episode.begin(policy, 0);
+    episode.report(painter, {.number = number, .lane = 0, .seed = world});
+    for (bool ended = false; !ended;) {
+      episode.look();
+      policy.observe(0, episode.observation);
+      const auto decision = policy.decide(policy::Sampled{rng})[0];
+      const auto roles =
+          evaluation::roles_of(episode.observation.image, episode.environment.progress());
+      painter.look(std::ranges::find(roles, evaluation::Role::target) != roles.end());
+      ended = episode.step(policy, 0, decision).ended();
     }
   }
   return painter.pictures();

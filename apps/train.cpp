@@ -1,18 +1,24 @@
 // train: from a configuration to a trained agent, its metrics and its checkpoint.
-#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
 #include <csignal>
 #include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
 
+#include "command.hpp"
 #include "listeners.hpp"
-#include "wordgaze/io/checkpoint.hpp"
 #include "wordgaze/io/config_file.hpp"
 #include "wordgaze/io/csv_log.hpp"
 #include "wordgaze/io/file.hpp"
 #include "wordgaze/io/progress.hpp"
+#include "wordgaze/training/checkpoint.hpp"
 
 namespace {
 
 using namespace wordgaze;
+using training::TrainConfig;
 namespace fs = std::filesystem;
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -25,13 +31,7 @@ struct Arguments {
   apps::Listeners::Options listeners;
 };
 
-Arguments parse(int argc, char** argv) {
-  Arguments a;
-  CLI::App app{
-      "Trains an agent that follows a sentence.\n"
-      "Settings come from the defaults, then --config, then --set and the options below; the\n"
-      "result is written to OUT/config.toml. docs/configuration.md lists every setting."};
-  app.set_version_flag("--version", WORDGAZE_VERSION);
+void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--config", a.config, "TOML file of settings, as configs/single.toml");
   app.add_option("--out", a.out, "folder for config.toml, metrics.csv and checkpoint.safetensors")
       ->required();
@@ -45,33 +45,27 @@ Arguments parse(int argc, char** argv) {
       ->type_name("KEY=VALUE ...");
   app.add_option("--lcm-log", a.listeners.log, "LCM log of metrics and of a sample of episodes");
   app.add_option("--lcm-url", a.listeners.url, "publish the same live, as udpm://");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error));
-  }
-  return a;
 }
 
-rl::TrainConfig resolve(const Arguments& a) {
-  rl::TrainConfig config;
-  if (!a.config.empty()) config = io::read_config<rl::TrainConfig>(a.config);
+TrainConfig resolve(const Arguments& a) {
+  TrainConfig config;
+  if (!a.config.empty()) config = io::read_config<TrainConfig>(a.config);
   for (const auto& assignment : a.set) io::set_option(config, assignment);
   if (!a.seed.empty()) io::set_option(config, "seed=" + a.seed);
   if (!a.frames.empty()) io::set_option(config, "frames=" + a.frames);
   if (!a.threads.empty()) io::set_option(config, "threads=" + a.threads);
-  rl::validate(config);
+  training::validate(config);
   return config;
 }
 
 /// Refuses to mix runs in one folder.
-void check_folder(const Arguments& a, const rl::TrainConfig& config, const fs::path& checkpoint) {
+void check_folder(const Arguments& a, const TrainConfig& config, const fs::path& checkpoint) {
   const fs::path out = a.out;
   if (fs::exists(out) && !fs::is_directory(out)) {
     throw std::invalid_argument("--out '" + a.out + "' is a file; give a folder");
   }
   if (fs::exists(out / "config.toml")) {
-    auto before = io::read_config<rl::TrainConfig>(out / "config.toml");
+    auto before = io::read_config<TrainConfig>(out / "config.toml");
     if (a.resume) before.frames = config.frames;  // a longer run may go on where it ended
     const auto differences = io::differences(before, config);
     if (!differences.empty()) {
@@ -93,24 +87,24 @@ void check_folder(const Arguments& a, const rl::TrainConfig& config, const fs::p
   }
 }
 
-void start(rl::Trainer& trainer, const Arguments& a, const fs::path& checkpoint) {
+void start(training::Trainer& trainer, const Arguments& a, const fs::path& checkpoint) {
   if (a.resume) {
-    trainer.restore(io::load_state(checkpoint, trainer.config()));
+    trainer.restore(training::load_state<policy::Agent>(checkpoint, trainer));
   } else if (!a.init.empty()) {
-    trainer.set_params(io::load_params(a.init, trainer.config().model, &trainer.params()));
+    trainer.set_params(training::load_params<policy::Agent>(a.init, trainer));
   }
 }
 
-std::string details(const rl::Metrics& m) {
+std::string details(const training::Metrics& m) {
   return fmt::format("success {:.3f}, return {:.3f}, entropy {:.3f}, hit {:.2f}", m.success_rate,
                      m.mean_return, m.entropy, m.hit);
 }
 
 int run(const Arguments& a) {
-  const rl::TrainConfig config = resolve(a);
+  const TrainConfig config = resolve(a);
   const fs::path out = a.out, checkpoint = out / "checkpoint.safetensors";
   check_folder(a, config, checkpoint);
-  rl::Trainer trainer(config);
+  training::Trainer trainer(config);
   start(trainer, a, checkpoint);
 
   auto options = a.listeners;
@@ -121,7 +115,7 @@ int run(const Arguments& a) {
 
   fs::create_directories(out);
   io::write_file(out / "config.toml", io::to_toml(config));
-  const auto columns = rl::Metrics::columns();
+  const auto columns = trainer.columns();
   auto log = a.resume ? io::CsvLog::resume(out / "metrics.csv", columns, "frames",
                                            static_cast<double>(trainer.frames()))
                       : io::CsvLog(out / "metrics.csv", columns);
@@ -131,21 +125,15 @@ int run(const Arguments& a) {
   {
     io::Progress progress("frames", trainer.frames(), config.frames);
     while (!trainer.finished() && !interrupted) {
-      const rl::Metrics metrics = trainer.update(listeners.observer());
-      const auto row = metrics.values();
-      log.append(row);
-      if (auto* observer = listeners.observer()) {
-        std::vector<rl::Scalar> scalars;
-        for (std::size_t i = 0; i < row.size(); ++i) scalars.push_back({columns[i], row[i]});
-        observer->on_update({trainer.updates(), trainer.frames(), scalars});
-      }
+      const training::Metrics metrics = trainer.update(listeners.observer());
+      log.append(metrics.values());
       progress.update(std::min(trainer.frames(), config.frames), details(metrics));
       if (trainer.updates() % config.checkpoint_every == 0) {
-        io::save_checkpoint(checkpoint, config, trainer.state());
+        training::save_checkpoint(checkpoint, config, trainer.state());
       }
     }
   }
-  io::save_checkpoint(checkpoint, config, trainer.state());
+  training::save_checkpoint(checkpoint, config, trainer.state());
   if (!trainer.finished()) {
     fmt::print(stderr,
                "stopped after {} frames; everything is saved in {}\n"
@@ -159,11 +147,14 @@ int run(const Arguments& a) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    return run(parse(argc, argv));
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "train: {}\n", error.what());
-    return 1;
-  }
+wordgaze::apps::Command wordgaze::apps::train_command() {
+  return {"train",
+          "Trains an agent that follows a sentence.\n"
+          "Settings come from the defaults, then --config, then --set and the options below; the\n"
+          "result is written to OUT/config.toml. docs/configuration.md lists every setting.",
+          [](CLI::App& app) {
+            const auto arguments = std::make_shared<Arguments>();
+            add_options(app, *arguments);
+            return [arguments] { return run(*arguments); };
+          }};
 }

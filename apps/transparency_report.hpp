@@ -3,15 +3,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "wordgaze/explain/transparency.hpp"
+#include "wordgaze/evaluation/transparency.hpp"
 
 /// Transparency as JSON and as a table; docs/metrics.md defines the numbers.
 namespace wordgaze::apps {
 
 using Json = nlohmann::ordered_json;
-using explain::Change;
+using evaluation::Change;
 
-inline Json to_json(const explain::Pointing& p) {
+inline Json to_json(const evaluation::Pointing& p) {
   return {{"target", p.target.value()},
           {"target_chance", p.target_chance.value()},
           {"target_count", p.target.count},
@@ -20,9 +20,9 @@ inline Json to_json(const explain::Pointing& p) {
           {"named_count", p.named.count}};
 }
 
-inline Json to_json(const explain::Mass& mass) {
+inline Json to_json(const evaluation::Mass& mass) {
   Json json;
-  const auto roles = names(explain::Role{});
+  const auto roles = names(evaluation::Role{});
   for (std::size_t r = 0; r < roles.size(); ++r) {
     json[std::string(roles[r])] = {{"share", mass.share[r].value()},
                                    {"even", mass.even[r].value()}};
@@ -30,10 +30,10 @@ inline Json to_json(const explain::Mass& mass) {
   return json;
 }
 
-inline Json to_json(const explain::Faithfulness& faithfulness) {
+inline Json to_json(const evaluation::Faithfulness& faithfulness) {
   const auto effects = [&](Change::Test test) {
     Json json;
-    for (const int k : explain::kDeletedCells) {
+    for (const int k : evaluation::kDeletedCells) {
       const auto shift = [&](Change::Cells cells) {
         return faithfulness.of(test, cells, k).value();
       };
@@ -47,7 +47,7 @@ inline Json to_json(const explain::Faithfulness& faithfulness) {
           {"insertion", effects(Change::Test::insertion)}};
 }
 
-inline Json to_json(const explain::MapReport& report) {
+inline Json to_json(const evaluation::MapReport& report) {
   return {{"pointing", to_json(report.pointing)},
           {"mass_in_view", to_json(report.mass_in_view)},
           {"mass_out_of_view", to_json(report.mass_out_of_view)},
@@ -56,7 +56,7 @@ inline Json to_json(const explain::MapReport& report) {
 }
 
 /// What the agent lacks is null.
-inline Json to_json(const explain::Transparency& t) {
+inline Json to_json(const evaluation::Transparency& t) {
   Json json{{"decisions", t.decisions()}, {"gaze", nullptr}};
   if (t.has_gaze()) {
     json["gaze"] = to_json(t.gaze());
@@ -88,16 +88,16 @@ inline Json to_json(const explain::Transparency& t) {
   return json;
 }
 
-inline void print(std::string_view name, const explain::Mass& mass) {
+inline void print(std::string_view name, const evaluation::Mass& mass) {
   fmt::print("  {:<22} mass with a target in view:", name);
-  const auto roles = names(explain::Role{});
+  const auto roles = names(evaluation::Role{});
   for (std::size_t r = 0; r < roles.size(); ++r) {
     fmt::print(" {} {:.3f}", roles[r], mass.share[r].value());
   }
   fmt::print("\n");
 }
 
-inline void print(std::string_view name, const explain::MapReport& report) {
+inline void print(std::string_view name, const evaluation::MapReport& report) {
   const auto& p = report.pointing;
   fmt::print(
       "  {:<22} points at a target {:.3f} (chance {:.3f}), at a named object {:.3f} ({:.3f})\n",
@@ -105,7 +105,7 @@ inline void print(std::string_view name, const explain::MapReport& report) {
   print("", report.mass_in_view);
   const auto& f = report.faithfulness_in_view;
   for (const auto test : {Change::Test::deletion, Change::Test::insertion}) {
-    for (const int k : explain::kDeletedCells) {
+    for (const int k : evaluation::kDeletedCells) {
       fmt::print(
           "  {:<22} {} of {}: brightest {:.3f}, random others {:.3f}, other objects {:.3f}\n", "",
           test == Change::Test::deletion ? "deletion" : "insertion", k,
@@ -116,7 +116,7 @@ inline void print(std::string_view name, const explain::MapReport& report) {
   }
 }
 
-inline void print(const explain::Transparency& t) {
+inline void print(const evaluation::Transparency& t) {
   if (t.has_gaze()) {
     print("gaze M", t.gaze());
     print("filter s(M)", t.filter());
