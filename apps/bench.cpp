@@ -1,5 +1,6 @@
 // bench: how fast the simulator, training and a single decision are on this machine. The last line
 // of the output is one JSON object.
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>

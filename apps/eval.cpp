@@ -1,4 +1,5 @@
 // eval: how well a trained agent does, in the room it knows and in others, and where it looks.
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>

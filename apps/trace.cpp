@@ -7,8 +7,9 @@
 
 #include "wordgaze/babyai/level.hpp"
 #include "wordgaze/bot/policy.hpp"
-#include "wordgaze/env/level_docs.hpp"
-#include "wordgaze/env/trace.hpp"
+#include "wordgaze/trace/level_docs.hpp"
+#include "wordgaze/trace/record.hpp"
+#include "wordgaze/trace/replay.hpp"
 
 // Reads and writes traces of episodes, and compares the simulator with the reference's.
 namespace {
@@ -16,7 +17,7 @@ namespace {
 using namespace wordgaze;
 
 // "A:B" as the half-open range of seeds [A, B).
-void parse_seeds(const std::string& text, env::RecordOptions& options) {
+void parse_seeds(const std::string& text, trace::RecordOptions& options) {
   std::istringstream in(text);
   char colon = 0;
   in >> options.first_seed >> colon >> options.end_seed;
@@ -33,20 +34,20 @@ int replay(const std::string& path) {
     file.open(path);
     if (!file) throw std::runtime_error(fmt::format("cannot read '{}'", path));
   }
-  const env::ReplayReport report = env::replay(path == "-" ? std::cin : file, std::cerr);
+  const trace::ReplayReport report = trace::replay(path == "-" ? std::cin : file, std::cerr);
   fmt::print("envs {} resets {} steps {} mismatches {}\n", report.envs, report.resets, report.steps,
              report.mismatches);
   return report.mismatches == 0 ? 0 : 1;
 }
 
-int record(const env::RecordOptions& options, const std::string& path) {
+int record(const trace::RecordOptions& options, const std::string& path) {
   std::ofstream file;
   if (path != "-") {
     file.open(path);
     if (!file) throw std::runtime_error(fmt::format("cannot write '{}'", path));
   }
   std::ostream& out = path == "-" ? std::cout : file;
-  env::record(options, out);
+  trace::record(options, out);
   out.flush();
   if (!out) throw std::runtime_error(fmt::format("could not write all of '{}'", path));
   return 0;
@@ -57,7 +58,7 @@ int record(const env::RecordOptions& options, const std::string& path) {
 int main(int argc, char** argv) {
   CLI::App app{"Replay reference traces, or record our own"};
   std::string replayed, out = "-", seeds = "0:4";
-  env::RecordOptions options;
+  trace::RecordOptions options;
   auto* replay_option = app.add_option("--replay", replayed,
                                        "Compare the simulator with a trace ('-': standard input)");
   auto* env_option = app.add_option("--env", options.ids, "Record these ids (all: every known one)")
@@ -86,7 +87,7 @@ int main(int argc, char** argv) {
       return 0;
     }
     if (levels) {
-      env::write_level_docs(std::cout);
+      trace::write_level_docs(std::cout);
       return 0;
     }
     if (*replay_option) return replay(replayed);

@@ -1,4 +1,5 @@
 // train: from a configuration to a trained agent, its metrics and its checkpoint.
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <filesystem>

@@ -1,8 +1,8 @@
-# The installed package: find_package(wordgaze COMPONENTS env rl io draw lcm).
+# The installed package: find_package(wordgaze COMPONENTS env trace rl io draw lcm).
 include(CMakePackageConfigHelpers)
 set(wordgaze_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/wordgaze)
 
-install(TARGETS wordgaze_core wordgaze_env wordgaze_rl wordgaze_io wordgaze_draw
+install(TARGETS wordgaze_core wordgaze_env wordgaze_trace wordgaze_rl wordgaze_io wordgaze_draw
         EXPORT wordgazeTargets)
 install(EXPORT wordgazeTargets NAMESPACE wordgaze:: DESTINATION ${wordgaze_package_dir})
 if(WORDGAZE_WITH_LCM)

@@ -40,7 +40,8 @@ endfunction()
 function(wordgaze_app name)
   add_executable(${name} "${PROJECT_SOURCE_DIR}/apps/${name}.cpp")
   target_link_libraries(${name} PRIVATE
-    wordgaze::io wordgaze::draw CLI11::CLI11 wordgaze_warnings nlohmann_json::nlohmann_json)
+    wordgaze::io wordgaze::draw wordgaze::trace CLI11::CLI11 wordgaze_warnings
+    nlohmann_json::nlohmann_json fmt::fmt)
   target_compile_definitions(${name} PRIVATE
     WORDGAZE_VERSION="${PROJECT_VERSION}" WORDGAZE_WITH_LCM=$<BOOL:${WORDGAZE_WITH_LCM}>)
   if(WORDGAZE_WITH_LCM)

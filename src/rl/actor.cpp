@@ -1,5 +1,7 @@
 #include "wordgaze/rl/actor.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace wordgaze::rl {

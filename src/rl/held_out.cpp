@@ -1,5 +1,7 @@
 #include "wordgaze/rl/held_out.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "wordgaze/babyai/parser.hpp"
