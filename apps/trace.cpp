@@ -1,22 +1,35 @@
-#include <fmt/format.h>
-#include <fmt/ostream.h>
-#include <CLI/CLI.hpp>
+// trace: reads and writes traces of episodes, and compares the simulator with the reference's.
+#include <fmt/core.h>
 
 #include <fstream>
 #include <iostream>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include "command.hpp"
 #include "wordgaze/babyai/level.hpp"
 #include "wordgaze/bot/policy.hpp"
-#include "wordgaze/env/level_docs.hpp"
-#include "wordgaze/env/trace.hpp"
+#include "wordgaze/core/require.hpp"
+#include "wordgaze/policy/environment.hpp"
+#include "wordgaze/trace/record.hpp"
+#include "wordgaze/trace/replay.hpp"
 
-// Reads and writes traces of episodes, and compares the simulator with the reference's.
 namespace {
 
 using namespace wordgaze;
 
+struct Arguments {
+  std::string replayed, checkpoint, out = "-", seeds = "0:4";
+  bool greedy = false;
+  trace::RecordOptions record;
+};
+
 // "A:B" as the half-open range of seeds [A, B).
-void parse_seeds(const std::string& text, env::RecordOptions& options) {
+void parse_seeds(const std::string& text, trace::RecordOptions& options) {
   std::istringstream in(text);
   char colon = 0;
   in >> options.first_seed >> colon >> options.end_seed;
@@ -33,70 +46,73 @@ int replay(const std::string& path) {
     file.open(path);
     if (!file) throw std::runtime_error(fmt::format("cannot read '{}'", path));
   }
-  const env::ReplayReport report = env::replay(path == "-" ? std::cin : file, std::cerr);
+  const trace::ReplayReport report = trace::replay(path == "-" ? std::cin : file, std::cerr);
   fmt::print("envs {} resets {} steps {} mismatches {}\n", report.envs, report.resets, report.steps,
              report.mismatches);
   return report.mismatches == 0 ? 0 : 1;
 }
 
-int record(const env::RecordOptions& options, const std::string& path) {
+int record(trace::RecordOptions options, const std::string& path) {
+  if (options.ids == std::vector<std::string>{"all"}) options.ids = babyai::level_ids();
   std::ofstream file;
   if (path != "-") {
     file.open(path);
     if (!file) throw std::runtime_error(fmt::format("cannot write '{}'", path));
   }
   std::ostream& out = path == "-" ? std::cout : file;
-  env::record(options, out);
+  trace::record(options, out);
   out.flush();
   if (!out) throw std::runtime_error(fmt::format("could not write all of '{}'", path));
   return 0;
 }
 
+void add_options(CLI::App& app, Arguments& a) {
+  auto* replay = app.add_option("--replay", a.replayed,
+                                "compare the simulator with a trace ('-': standard input)");
+  auto* env = app.add_option("--env", a.record.ids, "record these ids (all: every known one)")
+                  ->delimiter(',')
+                  ->excludes(replay);
+  app.add_option("--seeds", a.seeds, "A:B, one stream of episodes for each seed from A to B - 1")
+      ->needs(env);
+  auto* policy =
+      app.add_option("--policy", a.record.policy_name, "who acts; mixed: the bot for even seeds")
+          ->check(CLI::IsMember({"random", "bot", "mixed"}))
+          ->needs(env);
+  auto* checkpoint =
+      app.add_option("--checkpoint", a.checkpoint, "an agent acts: file that train has written")
+          ->needs(env)
+          ->excludes(policy);
+  app.add_flag("--greedy", a.greedy, "the agent's likeliest actions, not drawn ones")
+      ->needs(checkpoint);
+  app.add_option("--policy-seed", a.record.policy_seed, "varies the policy")->needs(env);
+  app.add_option("--steps", a.record.steps, "steps for each seed")
+      ->check(CLI::NonNegativeNumber)
+      ->needs(env);
+  app.add_option("--out", a.out, "where to write ('-': standard output)")->needs(env);
+  app.add_flag("--done-actions", a.record.done_actions, "the reference's done mode")->needs(env);
+}
+
+int run(Arguments a) {
+  if (!a.replayed.empty()) return replay(a.replayed);
+  require(!a.record.ids.empty(), "expected --replay FILE or --env ID");
+  parse_seeds(a.seeds, a.record);
+  if (a.checkpoint.empty()) {
+    a.record.policy = bot::policy_maker(a.record.policy_name);
+  } else {
+    a.record.policy_name = a.greedy ? "agent, greedy" : "agent, sampled";
+    a.record.policy = policy::EnvironmentPolicy::maker(
+        std::make_shared<policy::TrainedAgent>(policy::TrainedAgent::load(a.checkpoint)), a.greedy);
+  }
+  return record(std::move(a.record), a.out);
+}
+
 }  // namespace
 
-int main(int argc, char** argv) {
-  CLI::App app{"Replay reference traces, or record our own"};
-  std::string replayed, out = "-", seeds = "0:4";
-  env::RecordOptions options;
-  auto* replay_option = app.add_option("--replay", replayed,
-                                       "Compare the simulator with a trace ('-': standard input)");
-  auto* env_option = app.add_option("--env", options.ids, "Record these ids (all: every known one)")
-                         ->delimiter(',')
-                         ->excludes(replay_option);
-  app.add_option("--seeds", seeds, "A:B, one stream of episodes for each seed from A to B - 1")
-      ->needs(env_option);
-  app.add_option("--policy", options.policy_name, "Who acts; mixed: the bot for even seeds")
-      ->check(CLI::IsMember({"random", "bot", "mixed"}))
-      ->needs(env_option);
-  app.add_option("--policy-seed", options.policy_seed, "Varies the policy")->needs(env_option);
-  app.add_option("--steps", options.steps, "Steps for each seed")
-      ->check(CLI::NonNegativeNumber)
-      ->needs(env_option);
-  app.add_option("--out", out, "Where to write ('-': standard output)")->needs(env_option);
-  app.add_flag("--done-actions", options.done_actions, "The reference's done mode")
-      ->needs(env_option);
-  bool list = false, levels = false;
-  app.add_flag("--list", list, "Print all known ids");
-  app.add_flag("--levels", levels, "Print the table of levels, docs/levels.md");
-  CLI11_PARSE(app, argc, argv);
-
-  try {
-    if (list) {
-      for (const std::string& id : babyai::level_ids()) fmt::print("{}\n", id);
-      return 0;
-    }
-    if (levels) {
-      env::write_level_docs(std::cout);
-      return 0;
-    }
-    if (*replay_option) return replay(replayed);
-    if (!*env_option) throw std::invalid_argument("expected --replay FILE or --env ID");
-    if (options.ids == std::vector<std::string>{"all"}) options.ids = babyai::level_ids();
-    parse_seeds(seeds, options);
-    options.policy = bot::policy_maker(options.policy_name);
-    return record(options, out);
-  } catch (const std::exception& error) {
-    fmt::print(std::cerr, "trace: {}\n", error.what());
-    return 2;
-  }
+wordgaze::apps::Command wordgaze::apps::trace_command() {
+  return {"trace", "Replays traces of episodes, the reference's or our own, or records them.",
+          [](CLI::App& app) {
+            const auto arguments = std::make_shared<Arguments>();
+            add_options(app, *arguments);
+            return [arguments] { return run(*arguments); };
+          }};
 }

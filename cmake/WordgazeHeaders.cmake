@@ -16,4 +16,4 @@ endforeach()
 add_library(check_headers OBJECT EXCLUDE_FROM_ALL ${sources})
 target_compile_options(check_headers PRIVATE -O0)
 target_link_libraries(check_headers PRIVATE
-  wordgaze::io wordgaze::draw $<TARGET_NAME_IF_EXISTS:wordgaze::lcm> wordgaze_warnings)
+  wordgaze::io wordgaze::draw wordgaze::trace $<TARGET_NAME_IF_EXISTS:wordgaze::lcm> wordgaze_warnings)

@@ -1,14 +1,19 @@
-# The installed package: find_package(wordgaze COMPONENTS env rl io draw lcm).
+# The installed package: find_package(wordgaze COMPONENTS env policy evaluation training trace io draw lcm).
+# Each component is an export set of its own, so that asking for one needs only what that one needs.
 include(CMakePackageConfigHelpers)
 set(wordgaze_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/wordgaze)
 
-install(TARGETS wordgaze_core wordgaze_env wordgaze_io wordgaze_policy wordgaze_evaluation
-        wordgaze_training wordgaze_draw
-        EXPORT wordgazeTargets)
-install(EXPORT wordgazeTargets NAMESPACE wordgaze:: DESTINATION ${wordgaze_package_dir})
+get_property(components GLOBAL PROPERTY wordgaze_components)
+foreach(component IN ITEMS core LISTS components)
+  set(targets wordgaze_${component})
+  if(component STREQUAL "lcm")
+    list(APPEND targets wordgaze_lcmtypes)
+  endif()
+  install(TARGETS ${targets} EXPORT wordgaze_${component})
+  install(EXPORT wordgaze_${component} FILE wordgaze_${component}.cmake NAMESPACE wordgaze::
+          DESTINATION ${wordgaze_package_dir})
+endforeach()
 if(WORDGAZE_WITH_LCM)
-  install(TARGETS wordgaze_lcm wordgaze_lcmtypes EXPORT wordgazeLcmTargets)
-  install(EXPORT wordgazeLcmTargets NAMESPACE wordgaze:: DESTINATION ${wordgaze_package_dir})
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/lcmtypes/" DESTINATION ${CMAKE_INSTALL_DATADIR}/wordgaze/lcmtypes)
 endif()
 

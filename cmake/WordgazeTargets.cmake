@@ -5,46 +5,53 @@
 add_library(wordgaze_warnings INTERFACE)
 target_compile_options(wordgaze_warnings INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
-  -Wno-uninitialized -Wno-maybe-uninitialized
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-uninitialized -Wno-maybe-uninitialized>
   $<$<BOOL:${WORDGAZE_WERROR}>:-Werror>)
 
-# wordgaze_module(name MODULES dir... LINK target... [PRIVATE target...] [OPTIONS flag...])
-# A static library wordgaze::name from src/<dir>/*.cpp; an interface library while there are none.
+# wordgaze_module(name [FOLDERS folder...] LINK target... [PRIVATE target...] [BUILT_WITH target...]
+#                 [OPTIONS flag...])
+# A static library wordgaze::name from src/<folder>/*.cpp (the folder of its name by default), which is
+# also a component of the installed package. BUILT_WITH: headers that only our sources include.
 function(wordgaze_module name)
-  cmake_parse_arguments(arg "" "" "MODULES;LINK;PRIVATE;OPTIONS" ${ARGN})
+  cmake_parse_arguments(arg "" "" "FOLDERS;LINK;PRIVATE;BUILT_WITH;OPTIONS" ${ARGN})
+  if(NOT arg_FOLDERS)
+    set(arg_FOLDERS ${name})
+  endif()
   set(sources "")
-  foreach(dir IN LISTS arg_MODULES)
-    file(GLOB found CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${dir}/*.cpp")
+  foreach(folder IN LISTS arg_FOLDERS)
+    file(GLOB found CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/src/${folder}/*.cpp")
     list(APPEND sources ${found})
   endforeach()
-  if(sources)
-    set(kind STATIC)
-    set(reach PUBLIC)
-  else()
-    set(kind INTERFACE)
-    set(reach INTERFACE)
-  endif()
-  add_library(wordgaze_${name} ${kind} ${sources})
+  add_library(wordgaze_${name} STATIC ${sources})
   add_library(wordgaze::${name} ALIAS wordgaze_${name})
-  set_target_properties(wordgaze_${name} PROPERTIES EXPORT_NAME ${name})
-  target_link_libraries(wordgaze_${name} ${reach} ${arg_LINK})
-  if(sources)
-    set_target_properties(wordgaze_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-    target_link_libraries(wordgaze_${name} PRIVATE
-      ${arg_PRIVATE} $<BUILD_INTERFACE:wordgaze_warnings>)
-    target_compile_options(wordgaze_${name} PRIVATE ${arg_OPTIONS})
-  endif()
+  set_target_properties(wordgaze_${name} PROPERTIES
+    EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_link_libraries(wordgaze_${name} PUBLIC ${arg_LINK} PRIVATE ${arg_PRIVATE})
+  foreach(target IN LISTS arg_BUILT_WITH ITEMS wordgaze_warnings)
+    target_link_libraries(wordgaze_${name} PRIVATE $<BUILD_INTERFACE:${target}>)
+  endforeach()
+  target_compile_options(wordgaze_${name} PRIVATE ${arg_OPTIONS})
+  set_property(GLOBAL APPEND PROPERTY wordgaze_components ${name})
 endfunction()
 
-# wordgaze_app(name): the program apps/name.cpp, linked with every module that is built.
-function(wordgaze_app name)
-  add_executable(${name} "${PROJECT_SOURCE_DIR}/apps/${name}.cpp")
+# wordgaze_program(name LINKS other...): the program of apps/*.cpp, linked with every module that is
+# built. The other names are links to it in the build folder, and choose the command of that name.
+function(wordgaze_program name)
+  cmake_parse_arguments(arg "" "" "LINKS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/*.cpp")
+  add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE
-    wordgaze::io wordgaze::draw CLI11::CLI11 wordgaze_warnings nlohmann_json::nlohmann_json)
+    wordgaze::training wordgaze::trace wordgaze::draw CLI11::CLI11 nlohmann_json::nlohmann_json
+    fmt::fmt-header-only wordgaze_warnings)
   target_compile_definitions(${name} PRIVATE
     WORDGAZE_VERSION="${PROJECT_VERSION}" WORDGAZE_WITH_LCM=$<BOOL:${WORDGAZE_WITH_LCM}>)
   if(WORDGAZE_WITH_LCM)
     target_link_libraries(${name} PRIVATE wordgaze::lcm)
   endif()
-  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/wordgaze)
+  foreach(link IN LISTS arg_LINKS)
+    add_custom_command(TARGET ${name} POST_BUILD
+      COMMAND ${CMAKE_COMMAND} -E create_symlink ${name} "$<TARGET_FILE_DIR:${name}>/${link}"
+      VERBATIM)
+  endforeach()
+  install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endfunction()

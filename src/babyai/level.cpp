@@ -1,13 +1,12 @@
 #include "wordgaze/babyai/level.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 
 #include "generators.hpp"
 #include "level_table.hpp"
 #include "wordgaze/core/edit_distance.hpp"
+#include "wordgaze/core/formatted.hpp"
 #include "wordgaze/core/require.hpp"
 
 namespace wordgaze::babyai {
@@ -92,7 +91,7 @@ LevelSpec find_level(std::string_view id) {
           "package",
           id);
   throw std::invalid_argument(
-      fmt::format("unknown environment '{}'; the nearest known ids are {}", id, nearest_ids(id)));
+      formatted("unknown environment '{}'; the nearest known ids are {}", id, nearest_ids(id)));
 }
 
 std::vector<std::string> level_ids() {

@@ -1,11 +1,11 @@
 #include "wordgaze/babyai/parser.hpp"
 
-#include <fmt/format.h>
-
 #include <initializer_list>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "wordgaze/core/formatted.hpp"
 
 namespace wordgaze::babyai {
 namespace {
@@ -129,10 +129,10 @@ class Parser {
       if (!choice.empty()) choice += " | ";
       choice += word;
     }
-    const std::size_t column = end_ - word_.size();
-    throw std::invalid_argument(fmt::format(
-        "mission: expected {}, found {}\n  {}\n  {:>{}}", choice,
-        word_.empty() ? "the end" : fmt::format("'{}'", word_), text_, '^', column + 1));
+    const std::string found = word_.empty() ? "the end" : formatted("'{}'", word_);
+    const std::string to_the_word(end_ - word_.size(), ' ');
+    throw std::invalid_argument(formatted("mission: expected {}, found {}\n  {}\n  {}^", choice,
+                                          found, text_, to_the_word));
   }
 
   std::string_view text_;

@@ -1,7 +1,5 @@
 #include "wordgaze/env/environment.hpp"
 
-#include <fmt/format.h>
-
 #include <random>
 #include <stdexcept>
 #include <utility>
@@ -9,6 +7,7 @@
 #include "rules.hpp"
 #include "wordgaze/babyai/generator.hpp"
 #include "wordgaze/babyai/wording.hpp"
+#include "wordgaze/core/formatted.hpp"
 #include "wordgaze/core/require.hpp"
 #include "wordgaze/grid/step.hpp"
 
@@ -39,7 +38,7 @@ void Environment::reset() {
 
 void Environment::fail_to_start(const std::string& seed) const {
   throw std::runtime_error(
-      fmt::format("environment '{}': no layout found after many tries; seed: {}", spec_->id, seed));
+      formatted("environment '{}': no layout found after many tries; seed: {}", spec_->id, seed));
 }
 
 bool Environment::start(core::Rng rng) {
@@ -77,7 +76,7 @@ Transition Environment::step(Action action) {
           "environment '{}': action {}; expected 0 to {}", spec_->id, static_cast<int>(action),
           spec_->actions - 1);
   if (!seeded_) {
-    throw std::logic_error(fmt::format("environment '{}': step before the first reset", spec_->id));
+    throw std::logic_error(formatted("environment '{}': step before the first reset", spec_->id));
   }
   if (spec_->rule != babyai::Rule::instruction) {
     return step_by_rule(spec_->rule, world_, task_, rng_, action);

@@ -1,10 +1,9 @@
-#include <fmt/format.h>
-
 #include <bit>
 #include <cstring>
 #include <stdexcept>
 #include <type_traits>
 
+#include "wordgaze/core/formatted.hpp"
 #include "wordgaze/env/environment.hpp"
 
 namespace wordgaze::env {
@@ -113,9 +112,8 @@ void Environment::restore(std::span<const std::uint8_t> bytes) {
   babyai::DoneMode done_mode{};
   reader(id, done_mode);
   if (id != spec_->id || done_mode != spec_->done_mode) {
-    throw std::runtime_error(fmt::format("restore: the state belongs to '{}', this is '{}'{}", id,
-                                         spec_->id,
-                                         id == spec_->id ? " in another done mode" : ""));
+    throw std::runtime_error(formatted("restore: the state belongs to '{}', this is '{}'{}", id,
+                                       spec_->id, id == spec_->id ? " in another done mode" : ""));
   }
   Environment restored = *this;
   archive(reader, restored);

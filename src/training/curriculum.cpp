@@ -1,5 +1,7 @@
 #include "wordgaze/training/curriculum.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <stdexcept>

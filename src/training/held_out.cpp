@@ -1,5 +1,7 @@
 #include "wordgaze/training/held_out.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "wordgaze/babyai/parser.hpp"

@@ -9,18 +9,7 @@
 
 /// Traces of episodes as JSON Lines, one record per reset and step: the reference's worlds on
 /// paper. docs/formats.md describes the records.
-namespace wordgaze::env {
-
-/// What a replay found.
-struct ReplayReport {
-  int envs = 0;  ///< distinct ids
-  std::int64_t resets = 0, steps = 0, mismatches = 0;
-};
-
-/// Replays traces and compares every record with ours; after a mismatch it goes on at the next
-/// seeded reset. The first mismatches are described in `details`. Throws std::runtime_error with
-/// the line number for text that is not a trace, std::invalid_argument for an unknown id.
-ReplayReport replay(std::istream& trace, std::ostream& details);
+namespace wordgaze::trace {
 
 struct RecordOptions {
   std::vector<std::string> ids;
@@ -28,11 +17,12 @@ struct RecordOptions {
   int steps = 100;                            ///< per seed
   std::uint64_t policy_seed = 0;
   std::string policy_name = "random";
-  PolicyMaker policy = make_policy<RandomPolicy>;
+  /// Who acts: the bot, a trained agent, anything that is asked before each action.
+  env::PolicyMaker policy = env::make_policy<env::RandomPolicy>;
   bool done_actions = false;  ///< the reference's done mode on ids that have none of their own
 };
 
 /// Writes the traces of a policy.
-void record(const RecordOptions& options, std::ostream& trace);
+void record(const RecordOptions& options, std::ostream& out);
 
-}  // namespace wordgaze::env
+}  // namespace wordgaze::trace

@@ -1,12 +1,13 @@
-#include "trace_json.hpp"
+#include "records.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "wordgaze/core/crc32.hpp"
 
-namespace wordgaze::env {
+namespace wordgaze::trace {
 namespace {
 
 using babyai::Clause;
@@ -14,6 +15,7 @@ using babyai::Description;
 using babyai::Instruction;
 using babyai::Location;
 using babyai::Verb;
+using env::Environment;
 using grid::ObjectId;
 using grid::ObjectSet;
 using grid::Position;
@@ -167,7 +169,7 @@ Json reset_record(const Environment& env) {
           {"view", grid::kViewSize}};
 }
 
-Json step_record(const Environment& env, grid::Action action, const Transition& transition) {
+Json step_record(const Environment& env, grid::Action action, const env::Transition& transition) {
   const World& world = env.world();
   Json record{{"t", "step"},
               {"a", static_cast<int>(action)},
@@ -183,4 +185,4 @@ Json step_record(const Environment& env, grid::Action action, const Transition& 
   return record;
 }
 
-}  // namespace wordgaze::env
+}  // namespace wordgaze::trace

@@ -1,3 +1,5 @@
+#include "wordgaze/trace/replay.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ostream.h>
 
@@ -5,11 +7,10 @@
 #include <optional>
 #include <set>
 
-#include "trace_json.hpp"
+#include "records.hpp"
 #include "wordgaze/babyai/level.hpp"
-#include "wordgaze/env/trace.hpp"
 
-namespace wordgaze::env {
+namespace wordgaze::trace {
 namespace {
 
 constexpr int kMismatchesShown = 5;
@@ -72,7 +73,7 @@ class Replay {
       throw std::runtime_error(fmt::format("action {}; expected 0 to 6", number.dump()));
     }
     const auto action = static_cast<grid::Action>(number.get<int>());
-    const Transition transition = env_->step(action);
+    const env::Transition transition = env_->step(action);
     ++report_.steps;
     compare(step_record(*env_, action, transition), theirs);
   }
@@ -117,7 +118,7 @@ class Replay {
   }
 
   std::ostream& details_;
-  std::optional<Environment> env_;
+  std::optional<env::Environment> env_;
   std::set<std::string> ids_;
   bool done_actions_ = false, enum_actions_ = false;
   bool lost_ = false;  // a mismatch in this stream: what follows says nothing
@@ -127,10 +128,10 @@ class Replay {
 
 }  // namespace
 
-ReplayReport replay(std::istream& trace, std::ostream& details) {
+ReplayReport replay(std::istream& in, std::ostream& details) {
   Replay replay(details);
   std::string line;
-  for (std::int64_t number = 1; std::getline(trace, line); ++number) {
+  for (std::int64_t number = 1; std::getline(in, line); ++number) {
     try {
       replay.take(Json::parse(line));
     } catch (const Json::exception& error) {
@@ -142,4 +143,4 @@ ReplayReport replay(std::istream& trace, std::ostream& details) {
   return replay.report();
 }
 
-}  // namespace wordgaze::env
+}  // namespace wordgaze::trace

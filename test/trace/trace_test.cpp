@@ -1,5 +1,3 @@
-#include "wordgaze/env/trace.hpp"
-
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -8,8 +6,10 @@
 #include <sstream>
 
 #include "wordgaze/babyai/level.hpp"
+#include "wordgaze/trace/record.hpp"
+#include "wordgaze/trace/replay.hpp"
 
-namespace wordgaze::env {
+namespace wordgaze::trace {
 namespace {
 
 constexpr const char* kFiles[] = {"babyai", "minigrid",   "wordgaze",   "exact",
@@ -86,6 +86,27 @@ TEST(Trace, ReplaysWhatItRecords) {
   EXPECT_EQ(report.steps, 3 * 2 * 50);
 }
 
+// Turns left for ever.
+struct Turning {
+  grid::Action operator()(const env::Environment&) const { return grid::Action::left; }
+};
+
+TEST(Trace, RecordsWhoeverActs) {
+  std::istringstream lines(recorded(
+      {.ids = {"BabyAI-GoToLocal-v0"},
+       .end_seed = 2,
+       .steps = 5,
+       .policy = [](std::string_view, std::uint64_t, std::uint64_t) { return Turning{}; }}));
+  int steps = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const auto record = nlohmann::json::parse(line);
+    if (record["t"] != "step") continue;
+    EXPECT_EQ(record["a"], static_cast<int>(grid::Action::left));
+    ++steps;
+  }
+  EXPECT_EQ(steps, 2 * 5);
+}
+
 // A trace with one field of one record changed is found, whatever the field.
 TEST(Trace, FindsEveryChangedField) {
   std::istringstream lines(recorded({.ids = {"Wordgaze-Two-N8-K4-v0"}, .end_seed = 1, .steps = 3}));
@@ -148,4 +169,4 @@ TEST(Trace, RefusesAnUnknownId) {
 }
 
 }  // namespace
-}  // namespace wordgaze::env
+}  // namespace wordgaze::trace

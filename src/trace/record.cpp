@@ -1,10 +1,11 @@
+#include "wordgaze/trace/record.hpp"
+
 #include <ostream>
 
-#include "trace_json.hpp"
+#include "records.hpp"
 #include "wordgaze/babyai/level.hpp"
-#include "wordgaze/env/trace.hpp"
 
-namespace wordgaze::env {
+namespace wordgaze::trace {
 namespace {
 
 class Recorder {
@@ -13,13 +14,13 @@ class Recorder {
       : options_(options), env_(level(id)), out_(out) {}
 
   void record_stream(std::uint64_t seed) {
-    const Policy policy = options_.policy(env_.id(), seed, options_.policy_seed);
+    const env::Policy policy = options_.policy(env_.id(), seed, options_.policy_seed);
     int episode = 0;
     env_.reset(seed);
     write_reset(seed, seed, episode);
     for (int n = 0; n < options_.steps; ++n) {
       const grid::Action action = policy(env_);
-      const Transition transition = env_.step(action);
+      const env::Transition transition = env_.step(action);
       out_ << step_record(env_, action, transition) << '\n';
       if (!transition.terminated && !transition.truncated) continue;
       env_.reset();
@@ -46,26 +47,26 @@ class Recorder {
   }
 
   const RecordOptions& options_;
-  Environment env_;
+  env::Environment env_;
   std::ostream& out_;
 };
 
 }  // namespace
 
-void record(const RecordOptions& options, std::ostream& trace) {
-  trace << Json{{"t", "meta"},
-                {"policy", options.policy_name},
-                {"policy_seed", options.policy_seed},
-                {"seeds", {options.first_seed, options.end_seed}},
-                {"steps", options.steps},
-                {"done_actions", options.done_actions}}
-        << '\n';
+void record(const RecordOptions& options, std::ostream& out) {
+  out << Json{{"t", "meta"},
+              {"policy", options.policy_name},
+              {"policy_seed", options.policy_seed},
+              {"seeds", {options.first_seed, options.end_seed}},
+              {"steps", options.steps},
+              {"done_actions", options.done_actions}}
+      << '\n';
   for (const std::string& id : options.ids) {
-    Recorder recorder(options, id, trace);
+    Recorder recorder(options, id, out);
     for (auto seed = options.first_seed; seed < options.end_seed; ++seed) {
       recorder.record_stream(static_cast<std::uint64_t>(seed));
     }
   }
 }
 
-}  // namespace wordgaze::env
+}  // namespace wordgaze::trace

@@ -1,4 +1,4 @@
-#include "wordgaze/env/level_docs.hpp"
+#include "wordgaze/trace/level_docs.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ostream.h>
@@ -11,7 +11,7 @@
 
 #include "wordgaze/env/environment.hpp"
 
-namespace wordgaze::env {
+namespace wordgaze::trace {
 namespace {
 
 using babyai::Clause;
@@ -54,7 +54,7 @@ std::string form(const Instruction& i) {
 // The missions of a level as it draws them: D stands for a description.
 class MissionForms {
  public:
-  void add(const Environment& env) {
+  void add(const env::Environment& env) {
     const Instruction& instruction = env.instruction();
     if (instruction.clauses() > 0) {
       forms_.insert(form(instruction));
@@ -121,7 +121,7 @@ std::string rooms(const babyai::LevelSpec& level) {
 }
 
 void write_row(std::ostream& out, const std::string& id) {
-  Environment env(id);
+  env::Environment env(id);
   MissionForms forms;
   for (std::uint64_t seed = 0; seed < kEpisodes; ++seed) {
     env.reset(seed);
@@ -162,4 +162,4 @@ reference's own package.
   for (const std::string& id : babyai::level_ids()) write_row(out, id);
 }
 
-}  // namespace wordgaze::env
+}  // namespace wordgaze::trace

@@ -1,11 +1,11 @@
-#include "wordgaze/env/level_docs.hpp"
+#include "wordgaze/trace/level_docs.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>
 
-namespace wordgaze::env {
+namespace wordgaze::trace {
 namespace {
 
 TEST(LevelDocs, AreUpToDate) {
@@ -17,4 +17,4 @@ TEST(LevelDocs, AreUpToDate) {
 }
 
 }  // namespace
-}  // namespace wordgaze::env
+}  // namespace wordgaze::trace
