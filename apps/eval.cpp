@@ -121,9 +121,8 @@ void print_row(const Evaluation& evaluation, const char* policy,
   fmt::print(
       "{:<30} {:>7} {:>8} {:>7.1f}%  [{:>5.1f}, {:>5.1f}] {:>8.3f} {:>6.1f} {:>6} {:>7} "
       "{:>6.3f}\n",
-      evaluation.level.id, policy, r.episodes, 100 * r.success_rate(), 100 * ci.low,
-      100 * ci.high, r.mean_reward(), r.mean_steps(), r.done_wrong, r.truncated,
-      r.pointing.target.value());
+      evaluation.level.id, policy, r.episodes, 100 * r.success_rate(), 100 * ci.low, 100 * ci.high,
+      r.mean_reward(), r.mean_steps(), r.done_wrong, r.truncated, r.pointing.target.value());
 }
 
 /// Where missions join clauses: success by the words that do.
@@ -178,8 +177,8 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
     }
   }
   if (!a.pictures.empty()) {
-    const int count =
-        apps::draw_pictures(config.model, trained.weights.params, levels.front(), a.seed, a.pictures);
+    const int count = apps::draw_pictures(config.model, trained.weights.params, levels.front(),
+                                          a.seed, a.pictures);
     fmt::print("{} pictures in {}\n", count, a.pictures);
   }
 }
@@ -189,10 +188,11 @@ void evaluate_policy(const Arguments& a, nlohmann::ordered_json& report) {
   require(!a.env.empty(), "--policy {} wants --env ID: in which environment?", a.policy);
   const bool attention = a.transparency || !a.pictures.empty() || !a.listeners.log.empty() ||
                          !a.listeners.url.empty() || a.greedy || a.sample;
-  require(!attention,
-          "--policy {}: --greedy, --sample, --transparency, --pictures, --lcm-log and --lcm-url are "
-          "for agents, which have a policy and attention to show; leave them out",
-          a.policy);
+  require(
+      !attention,
+      "--policy {}: --greedy, --sample, --transparency, --pictures, --lcm-log and --lcm-url are "
+      "for agents, which have a policy and attention to show; leave them out",
+      a.policy);
   Team team(threads(a));
   for (const auto& level : settings(a, babyai::find_level(a.env))) {
     const Evaluation evaluation{.level = level, .episodes = a.episodes, .seed = a.seed};

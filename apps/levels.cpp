@@ -43,22 +43,24 @@ int run(const Arguments& a) {
     fmt::print("{:<45} {:>7} {:>6} {:>6}  {}\n", id, rooms, level.room_size,
                environment.max_steps(), environment.mission());
   }
-  require(shown > 0 || a.pattern.empty(),
-          "no id contains '{}'; levels without a pattern lists all, and Wordgaze-One-N8-K4-v0 and its "
-          "kin, of any size N and number of objects K, are not listed (docs/levels.md)",
-          a.pattern);
+  require(
+      shown > 0 || a.pattern.empty(),
+      "no id contains '{}'; levels without a pattern lists all, and Wordgaze-One-N8-K4-v0 and its "
+      "kin, of any size N and number of objects K, are not listed (docs/levels.md)",
+      a.pattern);
   return 0;
 }
 
 }  // namespace
 
 wordgaze::apps::Command wordgaze::apps::levels_command() {
-  return {"levels", "Lists the environments: rooms, side of a room in cells, step limit, a mission.",
-          [](CLI::App& app) {
-            const auto a = std::make_shared<Arguments>();
-            app.add_option("PATTERN", a->pattern, "only ids that contain this");
-            app.add_flag("--ids", a->ids, "ids alone, one a line");
-            app.add_flag("--page", a->page, "docs/levels.md: all levels with all forms of missions");
-            return [a] { return run(*a); };
-          }};
+  return {
+      "levels", "Lists the environments: rooms, side of a room in cells, step limit, a mission.",
+      [](CLI::App& app) {
+        const auto a = std::make_shared<Arguments>();
+        app.add_option("PATTERN", a->pattern, "only ids that contain this");
+        app.add_flag("--ids", a->ids, "ids alone, one a line");
+        app.add_flag("--page", a->page, "docs/levels.md: all levels with all forms of missions");
+        return [a] { return run(*a); };
+      }};
 }

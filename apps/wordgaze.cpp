@@ -16,8 +16,8 @@ namespace {
 
 using namespace wordgaze;
 
-constexpr int kFailed = 1;   // something went wrong
-constexpr int kBadUse = 2;   // the command line, or a value that the user gave
+constexpr int kFailed = 1;  // something went wrong
+constexpr int kBadUse = 2;  // the command line, or a value that the user gave
 
 /// Parses, and runs what was asked for.
 int parse_and_run(CLI::App& app, const std::function<int()>& run, int argc, char** argv) {
@@ -60,5 +60,6 @@ int main(int argc, char** argv) {
     CLI::App* sub = app.add_subcommand(std::string(command.name), std::string(command.about));
     sub->callback([&chosen, run = command.set_up(*sub)] { chosen = run; });
   }
-  return parse_and_run(app, [&] { return chosen(); }, argc, argv);
+  return parse_and_run(
+      app, [&] { return chosen(); }, argc, argv);
 }

@@ -1,70 +1,82 @@
-// Text-visual attention over 640 views of a room with four objects, one mission of five words.
+// The network of configs/single.toml on a minibatch's share of one worker: forward and backward of
+// all of it, and of its attention alone. Items are frames.
 #include <benchmark/benchmark.h>
 
-#include "wordgaze/env/environment.hpp"
-#include "wordgaze/model/text_visual_attention.hpp"
-#include "wordgaze/rl/actor.hpp"
-#include "wordgaze/rl/alphabet.hpp"
+#include "wordgaze/policy/environment.hpp"
 
 namespace {
 
 using namespace wordgaze;
-using Layer = model::TextVisualAttention<float>;
+using policy::Agent;
+using Vision = Agent::Vision;
+using Attention = Agent::Attention;
 
-constexpr Index kFrames = 640, kKeySize = 16, kChannels = 16;
-constexpr float kSharpness = 0.257f, kExponent = 2, kFloor = 0.1f;
+constexpr nn::SequenceShape kShape{.steps = 20, .batch = 32};
 
-struct Attention : benchmark::Fixture {
-  model::CellMatrix cells{grid::kViewCells, kFrames};
+struct Network : benchmark::Fixture {
+  Agent agent{model::Config{}, model::CellAlphabet::one_room()};
+  Agent::Weights weights, grads;
+  Agent::Cache cache;
+  model::Frames<float> frames;
   model::Missions missions;
-  std::vector<int> mission_of = std::vector<int>(kFrames, 0);
-  Layer::Tables tables, dtables;
-  Layer::Cache cache;
-  Matrix<float> alpha, dalpha, dscale;
+  Matrix<float> text{agent.config.text_size, 1};
+  model::Outputs<float> outputs, gradient;
 
-  Attention() {
+  Network() {
+    core::Rng rng(1);
+    weights = agent.make_weights(agent.initialize(rng));
+    grads = agent.make_weights();
+    frames.resize(agent.config, kShape);
     env::Environment environment("Wordgaze-One-N8-K4-v0");
-    const rl::Agent agent{model::Config{}, rl::alphabet_of(environment.spec())};
-    const auto& alphabet = agent.alphabet;
-    const Index kinds = agent.kinds();
     std::array<std::uint8_t, grid::kImageBytes> image;
-    for (Index n = 0; n < kFrames; ++n) {
+    for (Index n = 0; n < kShape.columns(); ++n) {
       environment.reset(n);
       environment.observe(image);
-      alphabet.encode(
-          image, std::span<std::uint8_t, grid::kViewCells>(cells.col(n).data(), grid::kViewCells));
+      agent.alphabet.encode(image, std::span<std::uint8_t, grid::kViewCells>(
+                                       frames.cells.col(n).data(), grid::kViewCells));
     }
     missions.index_of(environment.sentence());
-    tables.resize(kKeySize, kChannels, babyai::kVocabularySize, kinds);
-    tables.scores.setRandom();
-    dtables = tables;
-    cache.resize(kinds, kFrames, missions.longest);
-    alpha.setOnes(missions.longest, kFrames);
-    dalpha = alpha;
-    dscale = Matrix<float>::Random(kinds, kFrames);
+    gradient.resize(agent.config, kShape.columns());
+    gradient.logits.setRandom();
+    gradient.values.setRandom();
+    forward();
+    backward();
   }
   void forward() {
-    Layer::count_codes(cells, cache);
-    Layer::forward_words([&](Index, Index, Index word) { return tables.scores.col(word); },
-                         missions, mission_of, kSharpness, cache);
-    Layer::forward_gaze(missions, mission_of, alpha, kExponent, kFloor, cache);
+    agent.encode_text(weights, missions, cache, text);
+    agent.forward(weights, frames, missions, text, cache, outputs);
+  }
+  void backward() { agent.backward(weights, frames, missions, outputs, gradient, cache, grads); }
+  void attention_forward() {
+    const auto& t = weights.tables;
+    Vision::with_scores(agent, t.vision, t.attention.probes, frames.cells, cache.vision,
+                        [&](const auto& counts, auto&& score_of) {
+                          Attention::forward_words(agent.config, counts, score_of, frames, missions,
+                                                   cache.attention);
+                        });
+    Attention::forward_gaze(agent.config, frames, missions, cache.alpha, cache.attention);
+  }
+  void attention_backward() {
+    const auto& t = weights.tables;
+    Attention::backward_gaze(agent.config, frames, missions, cache.alpha, cache.dscale,
+                             cache.attention, cache.dalpha);
+    Vision::with_score_gradients(agent, t.vision, t.attention.probes, cache.vision,
+                                 grads.tables.vision, grads.tables.attention.probes,
+                                 [&](const auto& counts, auto&& take) {
+                                   Attention::backward_words(agent.config, counts, frames, missions,
+                                                             cache.alpha, cache.attention, take);
+                                 });
   }
 };
 
-BENCHMARK_F(Attention, forward)(benchmark::State& state) {
-  for (auto _ : state) forward();
-  state.SetItemsProcessed(state.iterations() * kFrames);
-}
-
-BENCHMARK_F(Attention, backward)(benchmark::State& state) {
-  forward();
-  for (auto _ : state) {
-    Layer::backward_gaze(missions, mission_of, alpha, kExponent, kFloor, dscale, cache, dalpha);
-    Layer::backward_words(
-        missions, mission_of, alpha, kSharpness, cache,
-        [&](Index, Index, Index word, const auto& dscore) { dtables.scores.col(word) += dscore; });
+#define WORDGAZE_BENCHMARK(piece)                                   \
+  BENCHMARK_F(Network, piece)(benchmark::State & state) {           \
+    for (auto _ : state) Network::piece();                          \
+    state.SetItemsProcessed(state.iterations() * kShape.columns()); \
   }
-  state.SetItemsProcessed(state.iterations() * kFrames);
-}
+WORDGAZE_BENCHMARK(forward)
+WORDGAZE_BENCHMARK(backward)
+WORDGAZE_BENCHMARK(attention_forward)
+WORDGAZE_BENCHMARK(attention_backward)
 
 }  // namespace

@@ -16,20 +16,17 @@ struct Gru : benchmark::Fixture {
   Layer::Cache cache;
   Matrix<float> input = Matrix<float>::Random(3 * kHidden, kShape.columns());
   Matrix<float> active = Matrix<float>::Ones(1, kShape.columns());
+  Matrix<float> h{kHidden, kShape.batch}, dproduct{3 * kHidden, kShape.columns()};
   Matrix<float> dh = Matrix<float>::Random(kHidden, kShape.batch);
 
   Gru() {
-    Layer::resize(params, 0, kHidden);  // the input's product is not this layer's
+    Layer::resize(0, kHidden, params);  // the input's product is not this layer's
     params.hidden_weight = 0.1f * Matrix<float>::Random(3 * kHidden, kHidden);
     params.bias.setZero();
     params.candidate_bias.setZero();
     grads = params;
-    cache.reserve(kHidden, kShape.columns());
   }
-  void forward() {
-    cache.gates = input;
-    Layer::forward(params, kShape, active, cache);
-  }
+  void forward() { Layer::forward(params, kShape, input, active, cache, h); }
 };
 
 BENCHMARK_F(Gru, forward)(benchmark::State& state) {
@@ -39,7 +36,9 @@ BENCHMARK_F(Gru, forward)(benchmark::State& state) {
 
 BENCHMARK_F(Gru, backward)(benchmark::State& state) {
   forward();
-  for (auto _ : state) Layer::backward(params, kShape, active, dh, cache, grads);
+  for (auto _ : state) {
+    Layer::backward(params, kShape, active, dh, cache, grads, dproduct);
+  }
   state.SetItemsProcessed(state.iterations() * kShape.batch);
 }
 

@@ -16,7 +16,7 @@ struct Linear : benchmark::Fixture {
   Matrix<float> y = Matrix<float>::Random(kOut, kColumns), dy = y;
 
   Linear() {
-    Layer::resize(params, kIn, kOut);
+    Layer::resize(kIn, kOut, params);
     params.weight.setRandom();
     params.bias.setRandom();
     grads = params;
@@ -24,12 +24,12 @@ struct Linear : benchmark::Fixture {
 };
 
 BENCHMARK_F(Linear, forward)(benchmark::State& state) {
-  for (auto _ : state) Layer::forward(params, x, y);
+  for (auto _ : state) Layer::forward(params, x, {}, y);
   state.SetItemsProcessed(state.iterations() * kColumns);
 }
 
 BENCHMARK_F(Linear, backward)(benchmark::State& state) {
-  for (auto _ : state) Layer::backward(params, x, dy, grads, dx);
+  for (auto _ : state) Layer::backward(params, x, dy, {}, grads, dx);
   state.SetItemsProcessed(state.iterations() * kColumns);
 }
 

@@ -17,20 +17,18 @@ struct Lstm : benchmark::Fixture {
   Layer::Cache cache;
   Matrix<float> input = Matrix<float>::Random(4 * kHidden, kShape.columns());
   Matrix<float> keep = Matrix<float>::Ones(1, kShape.columns());
+  Matrix<float> h{kHidden, kShape.columns()}, dproduct{4 * kHidden, kShape.columns()};
   Matrix<float> dh = Matrix<float>::Random(kHidden, kShape.columns());
 
   Lstm() {
-    Layer::resize(params, 0, kHidden);  // the input's product is not this layer's
+    Layer::resize(0, kHidden, params);  // the input's product is not this layer's
     params.hidden_weight = 0.1f * Matrix<float>::Random(4 * kHidden, kHidden);
     params.bias.setZero();
     grads = params;
     start.resize(kHidden, kShape.batch);
     cache.resize(kHidden, kShape);
   }
-  void forward() {
-    cache.gates = input;
-    Layer::forward(params, kShape, keep, start, cache);
-  }
+  void forward() { Layer::forward(params, kShape, input, keep, start, cache, h); }
 };
 
 BENCHMARK_F(Lstm, forward)(benchmark::State& state) {
@@ -40,7 +38,7 @@ BENCHMARK_F(Lstm, forward)(benchmark::State& state) {
 
 BENCHMARK_F(Lstm, backward)(benchmark::State& state) {
   forward();
-  for (auto _ : state) Layer::backward(params, kShape, keep, dh, cache, grads);
+  for (auto _ : state) Layer::backward(params, kShape, keep, dh, cache, grads, dproduct);
   state.SetItemsProcessed(state.iterations() * kShape.columns());
 }
 

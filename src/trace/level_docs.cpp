@@ -138,7 +138,7 @@ void write_row(std::ostream& out, const std::string& id) {
 void write_level_docs(std::ostream& out) {
   out << R"(# Levels
 
-Written by `trace --levels > docs/levels.md`; a test compares.
+Written by `wordgaze levels --page > docs/levels.md`; a test compares.
 
 Every level gives the worlds of minigrid 3.2.0 for the same seed. In a mission, D stands for a
 description ("the red ball on your left"), C for a color and T for a type. A step limit of `64 n`

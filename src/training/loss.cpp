@@ -16,10 +16,9 @@ class PpoTerm final : public Loss {
 
   void add(const Batch& batch, const model::Outputs<float>& outputs, const Rates& rates,
            float scale, model::Outputs<float>& gradient, std::span<double> sums) const override {
-    const PpoLoss<float> loss{
-        .clip = static_cast<float>(ppo_.clip),
-        .value_coefficient = static_cast<float>(ppo_.value_coefficient),
-        .entropy_coefficient = static_cast<float>(rates.entropy_coefficient)};
+    const PpoLoss<float> loss{.clip = static_cast<float>(ppo_.clip),
+                              .value_coefficient = static_cast<float>(ppo_.value_coefficient),
+                              .entropy_coefficient = static_cast<float>(rates.entropy_coefficient)};
     PpoLoss<float>::Sums sum;
     for (Index n = 0; n < outputs.logits.cols(); ++n) {
       const auto i = static_cast<std::size_t>(n);

@@ -15,14 +15,13 @@ Faithfulness measure(std::size_t pointed, Role elsewhere = Role::empty) {
   test::OneDecision at(false);
   at.see_only(test::kCellInFront);
   const auto decision = at.decide(2);
-  WhatIf what_if(at.agent, at.params);
   core::Rng rng(1);
   std::array<float, grid::kViewCells> map{};
   map[pointed] = 1;
   Roles roles;
   roles.fill(elsewhere);
   Faithfulness faithfulness;
-  faithfulness.add(shifts(what_if, decision, map, roles, rng));
+  faithfulness.add(shifts(decision, map, roles, rng));
   return faithfulness;
 }
 

@@ -1,37 +1,40 @@
 #pragma once
-#include "wordgaze/model/initialize.hpp"
-#include "wordgaze/rl/witness.hpp"
+#include "wordgaze/evaluation/decision_observer.hpp"
+#include "wordgaze/policy/environment.hpp"
 
 namespace wordgaze::test {
 
 /// An agent without training in a room, at a decision in the middle of an episode. Its policy is
 /// far from even.
 struct OneDecision {
-  rl::Agent agent;
-  rl::Agent::Params params;
+  policy::Agent agent;
+  policy::Agent::Weights weights;
+  policy::Agent::Params& params = weights.params;
   env::Environment environment{"Wordgaze-Two-N8-K4-v0"};
-  rl::Actor actor;
+  policy::NetworkPolicy<policy::Agent> policy;
+  policy::Observation observation;
+  policy::Decision decision;
 
   explicit OneDecision(bool attention, std::uint64_t seed = 1)
-      : agent{config(attention), model::CellAlphabet::one_room()}, actor(agent, 1) {
-    core::Rng rng(seed);
-    params = model::initialize(agent, rng);
-    params.actor.output.weight *= 300;
+      : agent{config(attention), model::CellAlphabet::one_room()},
+        weights(fresh(agent, seed)),
+        policy(agent, weights) {
     environment.reset(seed);
-    actor.begin(0, environment.sentence());
   }
+  OneDecision(const OneDecision&) = delete;
+  OneDecision& operator=(const OneDecision&) = delete;
 
   /// Decides, after as many steps; the action is the first.
-  rl::Decision decide(int steps = 0) {
-    auto tables = agent.make_tables();
-    agent.update_all_tables(params, tables);
+  evaluation::DecisionContext decide(int steps = 0) {
+    agent.refresh(weights);
+    policy.refresh();
     for (int t = 0; t <= steps; ++t) {
-      actor.observe(0, environment);
-      actor.decide(params, tables);
-      actor.advance();
+      policy::observe(environment, observation);
+      policy.observe(0, observation);
+      decision = policy.decide([](int, auto) { return std::size_t{0}; })[0];
       if (t < steps) environment.step(grid::Action::left);
     }
-    return {actor, 0, environment, 0};
+    return {policy, 0, environment, observation, decision};
   }
 
   /// Leaves the memory blind for all cells but one.
@@ -46,6 +49,14 @@ struct OneDecision {
     model::Config c;
     c.attention = c.task_attention = attention;
     return c;
+  }
+
+ private:
+  static policy::Agent::Weights fresh(const policy::Agent& agent, std::uint64_t seed) {
+    core::Rng rng(seed);
+    auto params = agent.initialize(rng);
+    params.actor.output.weight *= 300;
+    return agent.make_weights(std::move(params));
   }
 };
 

@@ -12,14 +12,15 @@ namespace {
 struct Measured {
   test::OneDecision at;
   Transparency transparency;
-  rl::EvaluationResult result;
+  EvaluationResult result;
 
   explicit Measured(bool attention)
-      : at(attention), transparency(at.agent, at.params, model::MaskTruth::current) {
+      : at(attention), transparency(at.agent.config, model::MaskTruth::current) {
     Team team(2);
-    result = rl::evaluate(at.agent, at.params, evaluation(), team, {.witness = &transparency});
+    result = evaluate(policy_factory(at.agent, at.weights), evaluation(), team,
+                      {.decisions = &transparency});
   }
-  static rl::Evaluation evaluation() {
+  static Evaluation evaluation() {
     return {.level = babyai::find_level("Wordgaze-Two-N6-K3-v0"), .episodes = 20, .lanes = 3};
   }
 };
@@ -28,17 +29,17 @@ TEST(Transparency, SeesEveryDecisionAndChangesNone) {
   const Measured measured(true);
   EXPECT_EQ(measured.transparency.decisions(), measured.result.steps);
   Team team(2);
-  const auto alone =
-      rl::evaluate(measured.at.agent, measured.at.params, Measured::evaluation(), team);
+  const auto alone = evaluate(policy_factory(measured.at.agent, measured.at.weights),
+                              Measured::evaluation(), team);
   EXPECT_EQ(alone.successes, measured.result.successes);
   EXPECT_EQ(alone.steps, measured.result.steps);
 }
 
-TEST(Transparency, AgreesWithTheGazeHitsOfTheEvaluation) {
+TEST(Transparency, AgreesWithThePointingOfTheEvaluation) {
   const Measured measured(true);
   const auto& pointing = measured.transparency.gaze().pointing;
-  EXPECT_EQ(pointing.target.count, measured.result.hits.seen);
-  EXPECT_DOUBLE_EQ(pointing.target.value(), measured.result.hits.rate());
+  EXPECT_EQ(pointing.target.count, measured.result.pointing.target.count);
+  EXPECT_DOUBLE_EQ(pointing.target.value(), measured.result.pointing.target.value());
 }
 
 TEST(Transparency, OfTheBaselineIsItsSaliency) {

@@ -15,7 +15,7 @@ TEST(ConfigurationDocs, AreUpToDate) {
   const std::string kept = read_file(path);
   const std::size_t end = kept.find(heading);
   ASSERT_NE(end, kept.npos);
-  const std::string now = kept.substr(0, end) + heading + to_markdown<rl::TrainConfig>();
+  const std::string now = kept.substr(0, end) + heading + to_markdown<training::TrainConfig>();
   if (std::getenv("WORDGAZE_RENEW_DOCS") != nullptr) write_file(path, now);
   EXPECT_TRUE(read_file(path) == now)
       << "renew it: WORDGAZE_RENEW_DOCS=1 test_io --gtest_filter=ConfigurationDocs.*";

@@ -13,7 +13,7 @@ TEST(LevelDocs, AreUpToDate) {
   std::stringstream kept, now;
   kept << file.rdbuf();
   write_level_docs(now);
-  EXPECT_EQ(kept.str(), now.str()) << "renew it: trace --levels > docs/levels.md";
+  EXPECT_EQ(kept.str(), now.str()) << "renew it: wordgaze levels --page > docs/levels.md";
 }
 
 }  // namespace

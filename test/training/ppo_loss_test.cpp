@@ -6,7 +6,7 @@
 
 #include "support.hpp"
 #include "wordgaze/nn/gradient_check.hpp"
-#include "wordgaze/rl/attention_loss.hpp"
+#include "wordgaze/training/mask_loss.hpp"
 
 namespace wordgaze::training {
 namespace {
@@ -66,22 +66,22 @@ TEST(PpoLoss, AClippedGainPullsNoFurther) {
   EXPECT_DOUBLE_EQ(sums.policy, -1.2);
 }
 
-TEST(AttentionLoss, GradientMatchesCentralDifferences) {
+TEST(MaskLoss, GradientMatchesCentralDifferences) {
   babyai::Sentence sentence;
   for (int i = 0; i < 3; ++i) sentence.append(3, 0);
   sentence.append(4, -1);
   for (int i = 0; i < 2; ++i) sentence.append(5, 1);
   Matrix<double> logits = test::random_matrix(8, 1);
   Vector<double> alpha = logits.array().logistic();
-  Vector<double> dlogits(8), unused(8);
+  Vector<double> dlogits = Vector<double>::Zero(8), unused = dlogits;
   const std::uint8_t bright = 0b10;  // the second clause only
-  attention_loss(sentence, bright, alpha, 1.5, dlogits);
+  mask_loss(sentence, bright, alpha, 1.5, dlogits);
   nn::GradientError error;
   nn::check_leaf(
       "logits", logits, dlogits,
       [&] {
         const Vector<double> a = logits.array().logistic();
-        return 1.5 * attention_loss(sentence, bright, a, 1, unused);
+        return 1.5 * mask_loss(sentence, bright, a, 1, unused);
       },
       error);
   EXPECT_LE(error.worst, 1e-6) << error.where;

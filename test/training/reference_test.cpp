@@ -2,8 +2,8 @@
 
 #include "support/golden.hpp"
 #include "wordgaze/optim/adam.hpp"
-#include "wordgaze/rl/attention_loss.hpp"
 #include "wordgaze/training/gae.hpp"
+#include "wordgaze/training/mask_loss.hpp"
 #include "wordgaze/training/ppo_loss.hpp"
 
 /// What the agent learns from, against PyTorch (scripts/golden/ppo.py).
@@ -46,7 +46,8 @@ TEST(PyTorch, AgreesOnTheClippedObjectiveAndItsGradient) {
   const PpoLoss<double> loss{.clip = j.at("clip"),
                              .value_coefficient = j.at("value_coefficient"),
                              .entropy_coefficient = j.at("entropy_coefficient")};
-  Matrix<double> dlogits(grid::kActions, frames), dvalues(1, frames);
+  Matrix<double> dlogits = Matrix<double>::Zero(grid::kActions, frames);
+  Matrix<double> dvalues = Matrix<double>::Zero(1, frames);
   PpoLoss<double>::Sums sums;
   for (Index n = 0; n < frames; ++n) {
     const auto of_frame = [&](const char* name) {
@@ -79,8 +80,8 @@ TEST(PyTorch, AgreesOnTheTaskAttentionLossAndItsGradient) {
     bright |= static_cast<std::uint8_t>(j.at("bright").at(i).get<int>() << i);
   }
   const Vector<double> alpha = test::column(j.at("alpha"));
-  Vector<double> dlogits(alpha.size());
-  EXPECT_NEAR(attention_loss(sentence, bright, alpha, 1, dlogits), j.at("loss"), kTolerance);
+  Vector<double> dlogits = Vector<double>::Zero(alpha.size());
+  EXPECT_NEAR(mask_loss(sentence, bright, alpha, 1, dlogits), j.at("loss"), kTolerance);
   EXPECT_LE(relative_error(dlogits, test::column(j.at("dlogits"))), kTolerance);
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <string>
 
 namespace wordgaze::training {
@@ -9,16 +11,21 @@ namespace {
 
 /// A view as text, far rows first: '?' unseen, '.' floor, '#' wall, 'o' an object.
 std::string stretched(const Stretch& stretch, const std::string& drawn) {
-  const auto alphabet = model::CellAlphabet::one_room();
-  const std::string kinds = "?.#o";
-  Vector<std::uint8_t> cells(grid::kViewCells);
-  const auto cell = [&](int x, int y) -> std::uint8_t& { return cells(grid::kViewSize * x + y); };
+  const std::string drawing = "?.#o";
+  constexpr std::array<std::uint8_t, 4> types{0, 1, 2, 6};
+  std::array<std::uint8_t, grid::kImageBytes> image{};
+  const auto cell = [&](int i) -> std::uint8_t& {
+    return image[static_cast<std::size_t>(3 * (grid::kViewSize * (i % 7) + i / 7))];
+  };
   for (int i = 0; i < grid::kViewCells; ++i) {
-    cell(i % 7, i / 7) = static_cast<std::uint8_t>(kinds.find(drawn[static_cast<std::size_t>(i)]));
+    cell(i) = types[drawing.find(drawn[static_cast<std::size_t>(i)])];
   }
-  stretch.apply(alphabet, cells);
+  stretch.apply(image);
   std::string result;
-  for (int i = 0; i < grid::kViewCells; ++i) result += kinds[cell(i % 7, i / 7)];
+  for (int i = 0; i < grid::kViewCells; ++i) {
+    const auto type = std::find(types.begin(), types.end(), cell(i)) - types.begin();
+    result += drawing[static_cast<std::size_t>(type)];
+  }
   return result;
 }
 

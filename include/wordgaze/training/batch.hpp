@@ -14,21 +14,21 @@ struct AdvantageScale {
   float mean = 0, factor = 1;
   float operator()(float advantage) const { return (advantage - mean) * factor; }
 };
-/// Mean 0 and deviation 1, but never divided by less than `floor`: rare successes of a random policy
-/// would be blown up to noise of size one.
+/// Mean 0 and deviation 1, but never divided by less than `floor`: rare successes of a random
+/// policy would be blown up to noise of size one.
 AdvantageScale advantage_scale(const Rollout& rollout, std::span<const int> sequences,
                                double floor);
 
-/// What one worker learns from in a minibatch: the network's input, and for each frame what was done
-/// and what came of it. N frames, a column each.
+/// What one worker learns from in a minibatch: the network's input, and for each frame what was
+/// done and what came of it. N frames, a column each.
 struct Batch {
   model::Frames<float> frames;
-  model::Missions missions;                                ///< that frames.mission_of counts in
-  std::vector<std::uint8_t> action;                        ///< [N]
-  std::vector<std::uint8_t> bright;                        ///< [N] the true mask, by sub-task
-  std::vector<float> log_prob;                             ///< [N] of the action when it was taken
-  std::vector<float> advantage;                            ///< [N] normalized
-  std::vector<float> value_target;                         ///< [N]
+  model::Missions missions;          ///< that frames.mission_of counts in
+  std::vector<std::uint8_t> action;  ///< [N]
+  std::vector<std::uint8_t> bright;  ///< [N] the true mask, by sub-task
+  std::vector<float> log_prob;       ///< [N] of the action when it was taken
+  std::vector<float> advantage;      ///< [N] normalized
+  std::vector<float> value_target;   ///< [N]
 
   /// Copies the columns of some training sequences.
   void gather(const model::Config& config, const Rollout& rollout, std::span<const int> sequences,
