@@ -8,6 +8,7 @@
 #include "listeners.hpp"
 #include "pictures.hpp"
 #include "transparency_report.hpp"
+#include "wordgaze/babyai/level_edit.hpp"
 #include "wordgaze/io/checkpoint.hpp"
 #include "wordgaze/io/file.hpp"
 #include "wordgaze/rl/alphabet.hpp"
@@ -92,7 +93,7 @@ nlohmann::ordered_json record(const std::string& id, const rl::Evaluation& evalu
   const auto& level = evaluation.level;
   return {{"env", id},
           {"room", level.room_size},
-          {"objects", level.objects},
+          {"objects", babyai::objects(level).value_or(0)},
           {"policy", evaluation.greedy ? "greedy" : "sampled"},
           {"episodes", r.episodes},
           {"seed", evaluation.seed},

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "wordgaze/babyai/level_edit.hpp"
 #include "wordgaze/model/initialize.hpp"
 #include "wordgaze/optim/schedule.hpp"
 #include "wordgaze/rl/alphabet.hpp"
@@ -152,10 +153,9 @@ void Trainer::summarize(Metrics& m) const {
 double Trainer::probe() const {
   constexpr int kObjects = 12, kLanes = 64, kSteps = 16;
   const int inside = level_.room_size - 2;
-  const bool fits = inside * inside >= 3 * kObjects;
-  if (!config_.model.attention || level_.objects == 0 || !fits) return kNothing;
-  babyai::LevelSpec crowded = level_;
-  crowded.objects = kObjects;
+  const bool fits = inside * inside >= 3 * kObjects && babyai::max_objects(level_) >= kObjects;
+  if (!config_.model.attention || babyai::objects(level_).value_or(0) == 0 || !fits) return kNothing;
+  const babyai::LevelSpec crowded = babyai::with_objects(level_, kObjects);
   return probe_gaze(agent_, learner_.params(), learner_.tables(), crowded, kLanes, kSteps,
                     (std::uint64_t{1} << 61) + static_cast<std::uint64_t>(updates_))
       .rate();
