@@ -16,6 +16,7 @@
 #include "listeners.hpp"
 #include "pictures.hpp"
 #include "transparency_report.hpp"
+#include "wordgaze/babyai/level_edit.hpp"
 #include "wordgaze/bot/policy.hpp"
 #include "wordgaze/evaluation/evaluator.hpp"
 #include "wordgaze/io/file.hpp"

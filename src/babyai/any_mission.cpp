@@ -1,7 +1,7 @@
 #include <bit>
 
-#include "generators.hpp"
-#include "stages.hpp"
+#include "wordgaze/babyai/generators.hpp"
+#include "wordgaze/babyai/stages.hpp"
 
 // BabyAI's LevelGen: a maze of rooms, one of them perhaps locked, and any instruction of the
 // grammar. (spec 7)
@@ -20,17 +20,18 @@ constexpr int kDescriptionTries = 100;
 
 class MissionGenerator {
  public:
-  explicit MissionGenerator(Layout& layout) : layout_(layout), spec_(layout.level.missions) {}
+  explicit MissionGenerator(Layout& layout)
+      : layout_(layout), wanted_(layout.parameters<Missions>()) {}
 
   void run() {
-    if (layout_.rng.uniform() < spec_.locked_room) add_locked_room();
+    if (layout_.rng.uniform() < wanted_.locked_room) add_locked_room();
     layout_.connect_all();
-    layout_.scatter(std::nullopt, layout_.level.objects, false);
+    layout_.scatter(std::nullopt, wanted_.objects, false);
     do {
       layout_.place_agent();
     } while (locked_room_ && layout_.room_of(layout_.world.agent) == *locked_room_);
-    if (!spec_.unblocking) layout_.require_reachable();
-    layout_.task.instruction = draw_instruction(spec_.forms);
+    if (!wanted_.unblocking) layout_.require_reachable();
+    layout_.task.instruction = draw_instruction(wanted_.forms);
   }
 
  private:
@@ -73,7 +74,7 @@ class MissionGenerator {
     static constexpr std::array kAll{Type::box, Type::ball, Type::key, Type::door};
     constexpr std::span<const Type> kMovable = std::span(kAll).first<3>();
     constexpr std::span<const Type> kDoor = std::span(kAll).last<1>();
-    Clause clause{.verb = layout_.pick(spec_.verbs)};
+    Clause clause{.verb = layout_.pick(std::span(wanted_.verbs))};
     switch (clause.verb) {
       case Verb::go_to:
         clause.object = draw_description(kAll);
@@ -103,10 +104,10 @@ class MissionGenerator {
       Description d;
       d.color = layout_.pick(kColors);
       d.type = layout_.pick(types);
-      if (spec_.locations && layout_.coin()) d.location = layout_.pick(kLocations);
+      if (wanted_.locations && layout_.coin()) d.location = layout_.pick(kLocations);
       const ObjectSet meant = matching_objects(layout_.world, d);
       if (meant == 0) continue;
-      if (!spec_.implicit_unlock && locked_room_ && all_locked_in(meant)) continue;
+      if (!wanted_.implicit_unlock && locked_room_ && all_locked_in(meant)) continue;
       return d;
     }
     throw grid::Rejected{};
@@ -121,7 +122,7 @@ class MissionGenerator {
   }
 
   Layout& layout_;
-  const MissionSpec& spec_;
+  const Missions& wanted_;
   std::optional<RoomIndex> locked_room_;
 };
 

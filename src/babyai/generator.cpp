@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <stdexcept>
+#include <variant>
 
-#include "generators.hpp"
 #include "wordgaze/babyai/layout.hpp"
 #include "wordgaze/babyai/wording.hpp"
+#include "wordgaze/core/formatted.hpp"
 
 namespace wordgaze::babyai {
 namespace {
@@ -36,12 +38,14 @@ bool asks_for_needed_key(const grid::World& world, const Description& d) {
 }
 
 bool is_valid(const Layout& layout, const Task& task) {
+  const auto* missions = std::get_if<Missions>(&layout.level.parameters);
+  const bool unblocking = missions != nullptr && missions->unblocking;
   for (int k = 0; k < task.instruction.clauses(); ++k) {
     if (task.instruction.clause[k].verb == Verb::put_next &&
         !can_be_put(layout.world, task.meaning.object[k], task.meaning.next_to[k])) {
       return false;
     }
-    if (layout.level.generate == generators::any_mission && layout.level.missions.unblocking) {
+    if (unblocking) {
       const Clause& clause = task.instruction.clause[k];
       if (asks_for_needed_key(layout.world, clause.object) ||
           asks_for_needed_key(layout.world, clause.next_to)) {
@@ -52,12 +56,37 @@ bool is_valid(const Layout& layout, const Task& task) {
   return true;
 }
 
+// What the rest of the simulator takes for granted, whoever wrote the generator.
+void check(const Layout& layout, const Task& task) {
+  const LevelSpec& level = layout.level;
+  const grid::World& world = layout.world;
+  const auto expect = [&](bool ok, const char* what) {
+    if (!ok) throw std::logic_error(formatted("level '{}': its generator {}", level.id, what));
+  };
+  const auto exists = [&](grid::ObjectId id) { return id < world.objects.size(); };
+  const Instruction& i = task.instruction;
+  expect(world.grid.contains(world.agent), "put the agent nowhere; call place_agent");
+  expect(i.first_part <= 2 && i.second_part <= 2 && (i.first_part > 0 || i.second_part == 0),
+         "wrote no instruction of the grammar; use single, both and ordered");
+  expect(level.rule != Rule::instruction || i.clauses() > 0, "wrote no instruction");
+  expect(exists(task.target.object) && exists(task.target.other), "named a target that is none");
+  expect(task.start_carrying == grid::kNothing ||
+             (exists(task.start_carrying) && world.stands(task.start_carrying)),
+         "lets the agent carry what does not stand in the grid");
+  if (level.rule != Rule::dynamic_obstacles) return;
+  expect(task.target.object > grid::kWall, "named no obstacle");
+  for (std::size_t id = task.target.object; id < world.objects.size(); ++id) {
+    expect(world.stands(static_cast<grid::ObjectId>(id)), "left an obstacle out of the grid");
+  }
+}
+
 // One layout; false when it is rejected.
 bool try_layout(const LevelSpec& level, core::Rng& rng, grid::World& world, Task& task) {
   try {
     Layout layout(level, world, rng, task);
     task = {};
     level.generate(layout);
+    check(layout, task);
     task.meaning = look_up(world, task.instruction);
     return is_valid(layout, task);
   } catch (const grid::Rejected&) {

@@ -1,5 +1,5 @@
-#include "generators.hpp"
-#include "stages.hpp"
+#include "wordgaze/babyai/generators.hpp"
+#include "wordgaze/babyai/stages.hpp"
 
 namespace wordgaze::babyai::generators {
 namespace {
@@ -8,7 +8,7 @@ namespace {
 std::pair<grid::ObjectId, grid::ObjectRange> red_ball_and_others(Layout& layout) {
   layout.place_agent();
   const grid::ObjectId ball = layout.add_object({}, grid::Type::ball, grid::Color::red);
-  return {ball, layout.scatter(std::nullopt, layout.level.objects, false)};
+  return {ball, layout.scatter_objects()};
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ void go_to_red_ball_among_grey(Layout& layout) {
 
 void go_to_red_or_blue_ball(Layout& layout) {
   layout.place_agent();
-  const grid::ObjectRange others = layout.scatter(std::nullopt, layout.level.objects, false);
+  const grid::ObjectRange others = layout.scatter_objects();
   for (int k = 0; k < others.size(); ++k) {
     const grid::Object& object = layout.world.object(others[k]);
     if (object.type == grid::Type::ball &&
@@ -50,7 +50,7 @@ void go_to_only_object(Layout& layout) {
 
 void go_to_local(Layout& layout) {
   layout.place_agent();
-  const grid::ObjectRange objects = layout.scatter(std::nullopt, layout.level.objects, false);
+  const grid::ObjectRange objects = layout.scatter_objects();
   layout.require_reachable();
   layout.ask(Verb::go_to, layout.describe(layout.pick_object(objects)));
 }
@@ -58,7 +58,7 @@ void go_to_local(Layout& layout) {
 void go_to(Layout& layout) {
   layout.place_agent();
   layout.connect_all();
-  const grid::ObjectRange objects = layout.scatter(std::nullopt, layout.level.objects, false);
+  const grid::ObjectRange objects = layout.scatter_objects();
   layout.require_reachable();
   layout.ask(Verb::go_to, layout.describe(layout.pick_object(objects)));
 }
@@ -90,7 +90,7 @@ void go_to_door(Layout& layout) {
 
 void go_to_object_or_door(Layout& layout) {
   layout.place_agent(Layout::kMiddle);
-  grid::ObjectRange targets = layout.scatter(Layout::kMiddle, layout.level.objects, false);
+  grid::ObjectRange targets = layout.scatter_objects(Layout::kMiddle);
   targets.count += add_doors(layout, 4).count;
   layout.require_reachable();
   layout.ask(Verb::go_to, layout.describe(layout.pick_object(targets)));

@@ -1,71 +1,36 @@
 #include "wordgaze/babyai/level.hpp"
 
 #include <algorithm>
-#include <charconv>
+#include <mutex>
+#include <stdexcept>
 
-#include "generators.hpp"
-#include "level_table.hpp"
+#include "edited_id.hpp"
+#include "wordgaze/babyai/level_edit.hpp"
 #include "wordgaze/core/edit_distance.hpp"
 #include "wordgaze/core/formatted.hpp"
 #include "wordgaze/core/require.hpp"
+#include "wordgaze_levels.hpp"
 
 namespace wordgaze::babyai {
 namespace {
 
-constexpr int kKinds = 18;  // colors times types: so many objects can be unique
-
-// Reads an id from the front.
-class IdReader {
- public:
-  explicit IdReader(std::string_view id) : rest_(id) {}
-
-  bool skip(std::string_view token) {
-    if (!rest_.starts_with(token)) return false;
-    rest_.remove_prefix(token.size());
-    return true;
-  }
-  // At most four digits.
-  bool read(int& number) {
-    const std::size_t digits = std::min(rest_.find_first_not_of("0123456789"), rest_.size());
-    if (digits == 0 || digits > 4) return false;
-    std::from_chars(rest_.data(), rest_.data() + digits, number);
-    rest_.remove_prefix(digits);
-    return true;
-  }
-  bool at_end() const { return rest_.empty(); }
-
- private:
-  std::string_view rest_;
+struct Registry {
+  std::mutex mutex;
+  std::vector<LevelSpec> levels;
 };
 
-// Wordgaze-{One,Two,Three,Four}-N{N}-K{K}[-auto]-v0, or nothing.
-std::optional<LevelSpec> wordgaze_level(std::string_view id) {
-  IdReader reader(id);
-  int clauses = 0, size = 0, objects = 0;
-  if (reader.skip("Wordgaze-One-N")) clauses = 1;
-  if (reader.skip("Wordgaze-Two-N")) clauses = 2;
-  if (reader.skip("Wordgaze-Three-N")) clauses = 3;
-  if (reader.skip("Wordgaze-Four-N")) clauses = 4;
-  if (clauses == 0 || !reader.read(size) || !reader.skip("-K") || !reader.read(objects)) {
-    return std::nullopt;
-  }
-  const bool declared = !reader.skip("-auto");
-  if (!reader.skip("-v0") || !reader.at_end()) return std::nullopt;
-  require(size >= 5, "environment '{}': a room of N = {} is too small; expected N >= 5", id, size);
-  // In a fuller room hardly a layout lets the agent reach every object, or none does.
-  const int fit = std::min(kKinds, (size - 2) * (size - 2) / 2);
-  require(objects >= clauses && objects <= fit,
-          "environment '{}': K = {} objects; expected {} to {} in a room of N = {}", id, objects,
-          clauses, fit, size);
-  return LevelSpec{.id = std::string(id),
-                   .generate = generators::one_room_task,
-                   .room_size = size,
-                   .rows = 1,
-                   .columns = 1,
-                   .done_mode = declared ? DoneMode::sequential : DoneMode::off,
-                   .objects = objects,
-                   .unique = true,
-                   .clauses = clauses};
+Registry& registry() {
+  static Registry registry;
+  return registry;
+}
+
+template <class Levels>
+auto find_in(const Levels& levels, std::string_view id) {
+  return std::find_if(levels.begin(), levels.end(), [&](const LevelSpec& l) { return l.id == id; });
+}
+
+bool is_built_in(std::string_view id) {
+  return find_in(built_in_levels(), id) != built_in_levels().end();
 }
 
 // The three ids that are written most like this one.
@@ -82,10 +47,22 @@ std::string nearest_ids(std::string_view id) {
 }  // namespace
 
 LevelSpec find_level(std::string_view id) {
-  for (const LevelSpec& level : level_table()) {
-    if (level.id == id) return level;
+  const auto built_in = find_in(built_in_levels(), id);
+  if (built_in != built_in_levels().end()) return *built_in;
+  {
+    Registry& known = registry();
+    const std::scoped_lock lock(known.mutex);
+    const auto own = find_in(known.levels, id);
+    if (own != known.levels.end()) return *own;
   }
-  if (auto level = wordgaze_level(id)) return *std::move(level);
+  if (auto level = wordgaze_level(id)) {
+    validate(*level);
+    return *std::move(level);
+  }
+  if (const EditedId parsed = EditedId::parse(id); parsed.is_edited()) {
+    LevelSpec level = edited(find_level(parsed.base), parsed.edit);
+    if (level.id == id) return level;  // else an edit changes nothing
+  }
   require(!id.starts_with("MiniGrid-WFC-"),
           "environment '{}' is not available: its patterns are missing from the reference's own "
           "package",
@@ -96,8 +73,26 @@ LevelSpec find_level(std::string_view id) {
 
 std::vector<std::string> level_ids() {
   std::vector<std::string> ids;
-  for (const LevelSpec& level : level_table()) ids.push_back(level.id);
+  for (const LevelSpec& level : built_in_levels()) ids.push_back(level.id);
+  Registry& known = registry();
+  const std::scoped_lock lock(known.mutex);
+  for (const LevelSpec& level : known.levels) ids.push_back(level.id);
   return ids;
+}
+
+void register_level(LevelSpec level) {
+  const std::string& id = level.id;
+  // Programs take ids in lists, and brackets hold edits.
+  require(!id.empty() && id.find_first_of(" \t\n,[]") == id.npos,
+          "register_level: '{}' is no id; expected one without spaces, commas and brackets", id);
+  require(!is_built_in(id) && !wordgaze_level(id),
+          "register_level: '{}' is the id of a built-in level; choose another", id);
+  validate(level);
+  Registry& known = registry();
+  const std::scoped_lock lock(known.mutex);
+  require(find_in(known.levels, id) == known.levels.end(),
+          "register_level: '{}' is registered already; choose another id", id);
+  known.levels.push_back(std::move(level));
 }
 
 }  // namespace wordgaze::babyai

@@ -1,5 +1,5 @@
-#include "generators.hpp"
-#include "minigrid_stages.hpp"
+#include "wordgaze/babyai/generators.hpp"
+#include "wordgaze/babyai/minigrid_stages.hpp"
 #include "wordgaze/babyai/wording.hpp"
 
 // MiniGrid's levels whose episode ends on the goal square. (spec 9)
@@ -44,7 +44,7 @@ void crossing(Layout& layout, ObjectId what) {
   agent_in_corner(layout);
   goal_in_corner(layout);
 
-  constexpr int kMax = 16;
+  constexpr int kMax = kMaxGridSide;
   std::array<River, kMax> rivers;
   int count = 0;
   for (int i = 2; i < height - 2; i += 2) rivers[count++] = {true, i};
@@ -55,7 +55,8 @@ void crossing(Layout& layout, ObjectId what) {
   std::array<int, kMax + 2> columns, rows;
   int vertical = 1, horizontal = 1;
   columns[0] = rows[0] = 0;
-  for (int k = 0; k < layout.level.objects; ++k) {
+  const int steps = layout.parameters<Crossings>().rivers;
+  for (int k = 0; k < steps; ++k) {
     if (rivers[k].vertical) {
       columns[vertical++] = rivers[k].at;
     } else {
@@ -76,7 +77,6 @@ void crossing(Layout& layout, ObjectId what) {
   // The path crosses a vertical river with each step right and a horizontal one with each step
   // down.
   std::array<bool, kMax> path_goes_right;
-  const int steps = layout.level.objects;
   for (int k = 0; k < steps; ++k) path_goes_right[k] = k < vertical - 1;
   layout.rng.shuffle(std::span(path_goes_right).first(steps));
   int i = 0, j = 0;
@@ -184,7 +184,8 @@ void dynamic_obstacles(Layout& layout, bool random_start) {
     agent_in_corner(layout);
   }
   const int size = layout.level.room_size;
-  const int count = 2 * layout.level.objects <= size + 2 ? layout.level.objects : size / 2;
+  const int wanted = layout.parameters<Obstacles>().count;
+  const int count = 2 * wanted <= size + 2 ? wanted : size / 2;
   // They are the last objects of the table.
   layout.task.target.object = static_cast<ObjectId>(layout.world.objects.size());
   for (int k = 0; k < count; ++k) {
@@ -259,10 +260,11 @@ class RoomChain {
     int width = 0, height = 0;
     Position entry;
   };
-  static constexpr int kMaxRooms = 6;
-  static constexpr int kSide = 25;
+  static constexpr int kMaxRooms = MultiRoom::kMaxRooms;
+  static constexpr int kSide = MultiRoom::kGridSide;
 
-  explicit RoomChain(Layout& layout) : layout_(layout), max_size_(layout.level.room_size) {}
+  explicit RoomChain(Layout& layout)
+      : layout_(layout), max_size_(layout.parameters<MultiRoom>().largest) {}
 
   void grow(int rooms) {
     count_ = 0;
@@ -344,7 +346,7 @@ class RoomChain {
 }  // namespace
 
 void multi_room(Layout& layout) {
-  const int wanted = layout.level.objects;
+  const int wanted = layout.parameters<MultiRoom>().rooms;
   RoomChain chain(layout);
   while (static_cast<int>(chain.rooms().size()) < wanted) chain.grow(wanted);
 

@@ -1,5 +1,5 @@
-#include "generators.hpp"
-#include "minigrid_stages.hpp"
+#include "wordgaze/babyai/generators.hpp"
+#include "wordgaze/babyai/minigrid_stages.hpp"
 #include "wordgaze/babyai/wording.hpp"
 
 // MiniGrid's levels about objects in one undivided grid. (spec 9)
@@ -25,15 +25,16 @@ bool has_kind(const Layout& layout, ObjectRange objects, Type type, Color color)
   return false;
 }
 
-// Objects of different kinds in random cells that are not `unfit(position, earlier objects)`.
+// Objects in random cells that are not `unfit(position, earlier objects)`.
 template <class Unfit>
-ObjectRange scatter_kinds(Layout& layout, Unfit unfit) {
+ObjectRange scatter(Layout& layout, Unfit unfit) {
+  const Objects& wanted = layout.parameters<Objects>();
   grid::World& world = layout.world;
   ObjectRange objects{static_cast<ObjectId>(world.objects.size()), 0};
-  while (objects.count < layout.level.objects) {
+  while (objects.count < wanted.count) {
     const Type type = layout.pick(kTypes);
     const Color color = layout.color();
-    if (has_kind(layout, objects, type, color)) continue;
+    if (wanted.unique && has_kind(layout, objects, type, color)) continue;
     layout.place(world.add(type, color), {}, world.grid.width(), world.grid.height(),
                  [&](Position p) { return unfit(p, objects); });
     ++objects.count;
@@ -49,7 +50,7 @@ void fetch(Layout& layout) {
                                                      "you must fetch a"};
   empty_grid(layout);
   const ObjectRange objects{static_cast<ObjectId>(layout.world.objects.size()),
-                            layout.level.objects};
+                            layout.parameters<Objects>().count};
   for (int k = 0; k < objects.size(); ++k) {
     const Type type = layout.pick(kFetched);
     layout.place(layout.world.add(type, layout.color()));
@@ -87,7 +88,7 @@ void door_of_color(Layout& layout) {
 
 void object_of_color(Layout& layout) {
   empty_grid(layout);
-  const ObjectRange objects = scatter_kinds(layout, [](Position, ObjectRange) { return false; });
+  const ObjectRange objects = scatter(layout, [](Position, ObjectRange) { return false; });
   layout.Builder::place_agent();
   const grid::Object& target = layout.world.object(layout.pick_object(objects));
   layout.task.target.place = target.position;
@@ -97,7 +98,7 @@ void object_of_color(Layout& layout) {
 
 void put_near(Layout& layout) {
   empty_grid(layout);
-  const ObjectRange objects = scatter_kinds(layout, [&](Position p, ObjectRange earlier) {
+  const ObjectRange objects = scatter(layout, [&](Position p, ObjectRange earlier) {
     for (int k = 0; k < earlier.size(); ++k) {
       if (is_near(p, layout.world.object(earlier[k]).position)) return true;
     }

@@ -1,6 +1,6 @@
-#include "generators.hpp"
-#include "minigrid_stages.hpp"
-#include "stages.hpp"
+#include "wordgaze/babyai/generators.hpp"
+#include "wordgaze/babyai/minigrid_stages.hpp"
+#include "wordgaze/babyai/stages.hpp"
 
 // MiniGrid's levels built of rooms. (spec 9)
 namespace wordgaze::babyai::generators {
@@ -24,9 +24,9 @@ constexpr Color kBlockingColor = grid::kColorsToDraw[1];
 constexpr Color kBoxColor = grid::kColorsToDraw[2];
 
 // The key of a color, in a box or bare, in a room.
-void hide_key(Layout& layout, RoomIndex room, Color color) {
+void hide_key(Layout& layout, const ObstructedDoor& by, RoomIndex room, Color color) {
   ObjectId hidden = layout.world.add(Type::key, color);
-  if (layout.level.maze.key_in_box) {
+  if (by.key_in_box) {
     const ObjectId box = layout.world.add(Type::box, kBoxColor);
     layout.world.objects[box].contents = hidden;
     hidden = box;
@@ -34,9 +34,10 @@ void hide_key(Layout& layout, RoomIndex room, Color color) {
   layout.place_in_room(hidden, room);
 }
 
-void add_locked_door(Layout& layout, RoomIndex room, Direction side, Color color) {
+void add_locked_door(Layout& layout, const ObstructedDoor& by, RoomIndex room, Direction side,
+                     Color color) {
   const ObjectId door = layout.add_door(room, side, color, true);
-  if (layout.level.maze.blocked) block(layout, door, side, kBlockingColor);
+  if (by.blocked) block(layout, door, side, kBlockingColor);
 }
 
 }  // namespace
@@ -68,8 +69,9 @@ void ball_off_corridor(Layout& layout) { ask_to_pick_up(layout, object_off_corri
 
 void obstructed_door(Layout& layout) {
   const auto colors = draw_colors(layout, 6);
-  add_locked_door(layout, {0, 0}, Direction::right, colors[0]);
-  hide_key(layout, {0, 0}, colors[0]);
+  const auto& obstruction = layout.parameters<ObstructedDoor>();
+  add_locked_door(layout, obstruction, {0, 0}, Direction::right, colors[0]);
+  hide_key(layout, obstruction, {0, 0}, colors[0]);
   const ObjectId target = layout.add_object({1, 0}, Type::ball, kTargetColor);
   layout.place_agent(RoomIndex{0, 0});
   ask_to_pick_up(layout, target);
@@ -79,7 +81,7 @@ void obstructed_maze(Layout& layout) {
   // The rooms at the sides of the middle one, and the corners between them.
   constexpr std::array<RoomIndex, 4> kSides{{{2, 1}, {1, 2}, {0, 1}, {1, 0}}};
   constexpr std::array<RoomIndex, 4> kCorners{{{2, 0}, {2, 2}, {0, 2}, {0, 0}}};
-  const MazeSpec& maze = layout.level.maze;
+  const Maze& maze = layout.parameters<Maze>();
   const auto colors = draw_colors(layout, 6);
   for (int i = 0; i < maze.quarters; ++i) {
     const auto outward = static_cast<Direction>(i);
@@ -88,11 +90,11 @@ void obstructed_maze(Layout& layout) {
     const std::array color_of{colors[(i + 5) % 6], colors[(i + 1) % 6]};
     const std::array side_of{turned(outward, -1), turned(outward, 1)};
     for (int k = 0; k < 2; ++k) {
-      add_locked_door(layout, kSides[i], side_of[k], color_of[k]);
-      if (!maze.keys_last) hide_key(layout, kSides[i], color_of[k]);
+      add_locked_door(layout, maze.doors, kSides[i], side_of[k], color_of[k]);
+      if (!maze.keys_last) hide_key(layout, maze.doors, kSides[i], color_of[k]);
     }
     if (!maze.keys_last) continue;
-    for (Color color : color_of) hide_key(layout, kSides[i], color);
+    for (Color color : color_of) hide_key(layout, maze.doors, kSides[i], color);
   }
   const RoomIndex corner = layout.pick(std::span(kCorners).first(maze.quarters));
   const ObjectId target = layout.add_object(corner, Type::ball, kTargetColor);

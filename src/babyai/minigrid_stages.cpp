@@ -1,4 +1,4 @@
-#include "minigrid_stages.hpp"
+#include "wordgaze/babyai/minigrid_stages.hpp"
 
 #include "wordgaze/babyai/wording.hpp"
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <span>
 
-#include "generators.hpp"
+#include "wordgaze/babyai/generators.hpp"
 
 namespace wordgaze::babyai::generators {
 namespace {
@@ -14,7 +14,7 @@ Clause draw_clause(Layout& layout, grid::ObjectId target) {
 /// Joins the clauses in one of the ways of the grammar, each as likely. More than two have an
 /// order, for "and" joins two.
 Instruction join(Layout& layout, const std::array<Clause, Instruction::kMaxClauses>& c) {
-  const int clauses = layout.level.clauses;
+  const int clauses = layout.parameters<OneRoomTask>().clauses;
   if (clauses == 1) return single(c[0]);
   constexpr std::array kJoins{Order::any, Order::before, Order::after};
   const Order order =
@@ -31,20 +31,20 @@ Instruction join(Layout& layout, const std::array<Clause, Instruction::kMaxClaus
 // Wordgaze-One to Wordgaze-Four: as many of the objects in the room are targets.
 void one_room_task(Layout& layout) {
   layout.place_agent();
-  const grid::ObjectRange objects =
-      layout.scatter(std::nullopt, layout.level.objects, layout.level.unique);
+  const OneRoomTask& wanted = layout.parameters<OneRoomTask>();
+  const grid::ObjectRange objects = layout.scatter(std::nullopt, wanted.objects, true);
   layout.require_reachable();
 
   std::array<grid::ObjectId, grid::kMaxObjects> left{};
   for (int i = 0; i < objects.size(); ++i) left[static_cast<std::size_t>(i)] = objects[i];
   std::array<grid::ObjectId, Instruction::kMaxClauses> targets{};
-  for (int i = 0; i < layout.level.clauses; ++i) {
+  for (int i = 0; i < wanted.clauses; ++i) {
     auto* drawn = left.data() + layout.rng.below(objects.size() - i);
     targets[static_cast<std::size_t>(i)] = *drawn;
     std::copy(drawn + 1, left.data() + left.size(), drawn);
   }
   std::array<Clause, Instruction::kMaxClauses> c{};
-  for (int i = 0; i < layout.level.clauses; ++i) {
+  for (int i = 0; i < wanted.clauses; ++i) {
     const auto k = static_cast<std::size_t>(i);
     c[k] = draw_clause(layout, targets[k]);
   }

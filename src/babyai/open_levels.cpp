@@ -1,5 +1,5 @@
-#include "generators.hpp"
-#include "stages.hpp"
+#include "wordgaze/babyai/generators.hpp"
+#include "wordgaze/babyai/stages.hpp"
 
 namespace wordgaze::babyai::generators {
 
@@ -54,7 +54,7 @@ void two_doors(Layout& layout, Color left, Color right) {
 void open(Layout& layout) {
   layout.place_agent();
   layout.connect_all();
-  layout.scatter(std::nullopt, layout.level.objects, false);
+  layout.scatter_objects();
   layout.require_reachable();
   // Room by room: each door is listed twice, once for either room.
   std::array<ObjectId, 4 * Layout::kMaxRooms> doors;
@@ -105,7 +105,7 @@ void open_red_then_blue_door(Layout& layout) {
 }
 
 void open_doors_in_order(Layout& layout) {
-  const int count = layout.level.objects;
+  const int count = layout.parameters<Doors>().count;
   const auto colors = draw_colors(layout, count);
   std::array<ObjectId, 6> doors;
   for (int k = 0; k < count; ++k) doors[k] = layout.add_door(Layout::kMiddle, {}, colors[k], false);
@@ -125,7 +125,7 @@ void open_doors_in_order(Layout& layout) {
 }
 
 void act_on_object_or_door(Layout& layout) {
-  ObjectRange targets = layout.scatter(Layout::kMiddle, layout.level.objects, true);
+  ObjectRange targets = layout.scatter_objects(Layout::kMiddle);
   targets.count += add_doors(layout, 4, false).count;
   layout.place_agent(Layout::kMiddle);
   const ObjectId target = layout.pick_object(targets);

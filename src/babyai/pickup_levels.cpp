@@ -1,5 +1,5 @@
-#include "generators.hpp"
-#include "stages.hpp"
+#include "wordgaze/babyai/generators.hpp"
+#include "wordgaze/babyai/stages.hpp"
 
 namespace wordgaze::babyai::generators {
 
@@ -12,7 +12,7 @@ using grid::Type;
 void pick_up(Layout& layout) {
   layout.place_agent();
   layout.connect_all();
-  const ObjectRange objects = layout.scatter(std::nullopt, layout.level.objects, false);
+  const ObjectRange objects = layout.scatter_objects();
   layout.require_reachable();
   layout.ask(Verb::pickup, layout.describe(layout.pick_object(objects)));
 }
@@ -20,13 +20,13 @@ void pick_up(Layout& layout) {
 void unblock_and_pick_up(Layout& layout) {
   layout.place_agent();
   layout.connect_all();
-  const ObjectRange objects = layout.scatter(std::nullopt, layout.level.objects, false);
+  const ObjectRange objects = layout.scatter_objects();
   if (layout.all_reachable()) throw grid::Rejected{};
   layout.ask(Verb::pickup, layout.describe(layout.pick_object(objects)));
 }
 
 void pick_up_among_distractors(Layout& layout) {
-  const ObjectRange objects = layout.scatter(std::nullopt, layout.level.objects, true);
+  const ObjectRange objects = layout.scatter_objects();
   layout.place_agent(RoomIndex{});
   Description target = layout.describe(layout.pick_object(objects));
   enum class By { type, color, both };

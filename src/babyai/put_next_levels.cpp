@@ -1,4 +1,4 @@
-#include "generators.hpp"
+#include "wordgaze/babyai/generators.hpp"
 
 namespace wordgaze::babyai::generators {
 
@@ -30,8 +30,8 @@ struct Sides {
 // Objects in two rooms, and no wall between them.
 Sides two_sides(Layout& layout) {
   layout.place_agent(RoomIndex{0, 0});
-  const ObjectRange left = layout.scatter(RoomIndex{0, 0}, layout.level.objects, true);
-  const ObjectRange right = layout.scatter(RoomIndex{1, 0}, layout.level.objects, true);
+  const ObjectRange left = layout.scatter_objects(RoomIndex{0, 0});
+  const ObjectRange right = layout.scatter_objects(RoomIndex{1, 0});
   layout.remove_wall({0, 0}, Direction::right);
   return {left, right};
 }
@@ -50,7 +50,7 @@ ObjectId put_next_to_other_side(Layout& layout) {
 
 void put_next_local(Layout& layout) {
   layout.place_agent();
-  const ObjectRange objects = layout.scatter(std::nullopt, layout.level.objects, true);
+  const ObjectRange objects = layout.scatter_objects();
   layout.require_reachable();
   const auto [object, next_to] = draw_two(layout, objects);
   layout.task.instruction = single(put(layout, object, next_to));

@@ -1,4 +1,4 @@
-#include "stages.hpp"
+#include "wordgaze/babyai/stages.hpp"
 
 namespace wordgaze::babyai::generators {
 

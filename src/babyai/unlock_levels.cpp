@@ -1,5 +1,5 @@
-#include "generators.hpp"
-#include "stages.hpp"
+#include "wordgaze/babyai/generators.hpp"
+#include "wordgaze/babyai/stages.hpp"
 
 namespace wordgaze::babyai::generators {
 
@@ -29,7 +29,7 @@ void unlock(Layout& layout) {
 void unlock_local(Layout& layout) {
   const ObjectId door = layout.add_door(Layout::kMiddle, {}, {}, true);
   add_key(layout, Layout::kMiddle, door);
-  layout.scatter(Layout::kMiddle, layout.level.objects, true);
+  layout.scatter_objects(Layout::kMiddle);
   layout.place_agent(Layout::kMiddle);
   layout.ask(Verb::open, layout.describe_type(door));
 }
@@ -46,7 +46,7 @@ void key_in_box(Layout& layout) {
 void unlock_and_pick_up(Layout& layout) {
   const auto [box, door] = box_behind_locked_door(layout);
   add_key(layout, {0, 0}, door);
-  layout.scatter(std::nullopt, layout.level.objects, true);
+  layout.scatter_objects();
   layout.place_agent(RoomIndex{0, 0});
   layout.ask(Verb::pickup, layout.describe(box));
 }

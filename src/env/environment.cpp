@@ -20,7 +20,7 @@ Environment::Environment(std::string_view id) : Environment(babyai::find_level(i
 
 Environment::Environment(const babyai::LevelSpec& spec)
     : spec_(std::make_shared<const babyai::LevelSpec>(spec)) {
-  require(spec.generate != nullptr, "level '{}' has no generator", spec.id);
+  validate(spec);
 }
 
 void Environment::reset(std::uint64_t seed) {

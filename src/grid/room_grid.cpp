@@ -1,7 +1,10 @@
 #include "wordgaze/grid/room_grid.hpp"
 
-#include <cassert>
+#include <stdexcept>
 #include <vector>
+
+#include "wordgaze/core/formatted.hpp"
+#include "wordgaze/core/require.hpp"
 
 namespace wordgaze::grid {
 namespace {
@@ -11,6 +14,7 @@ constexpr std::array kSides{Direction::right, Direction::down, Direction::left, 
 constexpr int kPlacementTries = 1000;
 constexpr int kConnectionTries = 5000;
 constexpr int kAgentRounds = 100'000;
+constexpr std::uint32_t kAllKinds = (1u << (kTypesToDraw.size() * kColorsToDraw.size())) - 1;
 
 constexpr Direction opposite(Direction side) { return turned(side, 2); }
 constexpr RoomIndex beyond(RoomIndex room, Direction side) {
@@ -18,8 +22,9 @@ constexpr RoomIndex beyond(RoomIndex room, Direction side) {
   return {room.column + d.x, room.row + d.y};
 }
 
-// One bit for each type and color.
+// One bit for each type and color of what can be scattered; none for other objects.
 std::uint32_t kind(Type type, Color color) {
+  if (type < Type::key || type > Type::box) return 0;
   return 1u << ((static_cast<int>(type) - static_cast<int>(Type::key)) * 6 +
                 static_cast<int>(color));
 }
@@ -28,7 +33,9 @@ std::uint32_t kind(Type type, Color color) {
 
 RoomGrid::RoomGrid(World& w, core::Rng& r, int room_size, int columns, int rows)
     : Builder(w, r), size_(room_size), columns_(columns), rows_(rows) {
-  assert(columns * rows <= kMaxRooms);
+  require(room_size >= 3, "RoomGrid: room_size = {}; expected at least 3", room_size);
+  require(columns >= 1 && rows >= 1 && rows <= kMaxRooms / columns,
+          "RoomGrid: {} x {} rooms; expected 1 to {} of them", columns, rows, kMaxRooms);
   const int pitch = room_size - 1;
   world.clear(pitch * columns + 1, pitch * rows + 1);
   world.room_size = room_size;
@@ -53,6 +60,14 @@ RoomGrid::RoomGrid(World& w, core::Rng& r, int room_size, int columns, int rows)
   }
   world.agent = at(columns / 2 * pitch + room_size / 2, rows / 2 * pitch + room_size / 2);
   world.direction = Direction::right;
+}
+
+std::size_t RoomGrid::index(RoomIndex room) const {
+  if (room.column < 0 || room.column >= columns_ || room.row < 0 || room.row >= rows_) {
+    throw std::out_of_range(
+        formatted("room ({}, {}) of {} x {} rooms", room.column, room.row, columns_, rows_));
+  }
+  return static_cast<std::size_t>(room.row * columns_ + room.column);
 }
 
 RoomIndex RoomGrid::random_room() {
@@ -94,6 +109,7 @@ ObjectRange RoomGrid::scatter(std::optional<RoomIndex> room, int count, bool uni
   for (int n = 0; n < count;) {
     const Color color = this->color();
     const Type type = pick(kTypesToDraw);
+    if (unique && kinds_ == kAllKinds) throw GaveUp{};
     if (unique && (kinds_ & kind(type, color)) != 0) continue;
     add_object(room ? *room : random_room(), type, color);
     ++n;
@@ -101,20 +117,23 @@ ObjectRange RoomGrid::scatter(std::optional<RoomIndex> room, int count, bool uni
   return added;
 }
 
-ObjectId RoomGrid::add_door(RoomIndex index, std::optional<Direction> side,
-                            std::optional<Color> color, std::optional<bool> locked) {
-  Room& room = at_room(index);
+ObjectId RoomGrid::add_door(RoomIndex at, std::optional<Direction> side, std::optional<Color> color,
+                            std::optional<bool> locked) {
+  Room& room = at_room(at);
+  const auto is_free = [&](Direction s) { return has_neighbor(at, s) && door(at, s) == kNothing; };
+  if (!side && std::none_of(kSides.begin(), kSides.end(), is_free)) throw GaveUp{};
   while (!side) {
     const auto drawn = static_cast<Direction>(rng.below(4));
-    if (has_neighbor(index, drawn) && door(index, drawn) == kNothing) side = drawn;
+    if (is_free(drawn)) side = drawn;
   }
+  at_room(beyond(at, *side));  // there is one
   if (!color) color = this->color();
   if (!locked) locked = coin();
   room.locked = *locked;  // as the reference: a later unlocked door clears it
   const ObjectId id =
       world.add(Type::door, *color, *locked ? DoorState::locked : DoorState::closed);
   world.put(id, room.door_positions[int(*side)]);
-  connect(index, *side, id);
+  connect(at, *side, id);
   return id;
 }
 

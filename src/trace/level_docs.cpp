@@ -120,16 +120,16 @@ std::string rooms(const babyai::LevelSpec& level) {
   return fmt::format("{} x {} of {}", level.columns, level.rows, level.room_size);
 }
 
-void write_row(std::ostream& out, const std::string& id) {
-  env::Environment env(id);
+void write_row(std::ostream& out, const babyai::LevelSpec& level) {
+  env::Environment env(level);
   MissionForms forms;
   for (std::uint64_t seed = 0; seed < kEpisodes; ++seed) {
     env.reset(seed);
     forms.add(env);
   }
   const grid::Grid& grid = env.world().grid;
-  fmt::print(out, "| {} | {} x {} | {} | {} | {} | {} |\n", id, grid.width(), grid.height(),
-             rooms(env.spec()), step_limit(env.spec()), env.spec().see_through_walls ? "yes" : "no",
+  fmt::print(out, "| {} | {} x {} | {} | {} | {} | {} |\n", level.id, grid.width(), grid.height(),
+             rooms(level), step_limit(level), level.see_through_walls ? "yes" : "no",
              forms.text());
 }
 
@@ -159,7 +159,7 @@ reference's own package.
 | id | cells | rooms | step limit | sees through | missions |
 |---|---|---|---|---|---|
 )";
-  for (const std::string& id : babyai::level_ids()) write_row(out, id);
+  for (const babyai::LevelSpec& level : babyai::built_in_levels()) write_row(out, level);
 }
 
 }  // namespace wordgaze::trace

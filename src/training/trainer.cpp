@@ -1,5 +1,6 @@
 #include "wordgaze/training/trainer.hpp"
 
+#include "wordgaze/babyai/level_edit.hpp"
 #include "wordgaze/core/require.hpp"
 
 template class wordgaze::training::Learner<wordgaze::policy::Agent>;
@@ -36,10 +37,9 @@ Rates rates_at(const TrainConfig& config, std::int64_t frames) {
 std::optional<babyai::LevelSpec> crowded(const babyai::LevelSpec& level) {
   constexpr int kObjects = 12;
   const int inside = level.room_size - 2;
-  if (level.objects == 0 || inside * inside < 3 * kObjects) return std::nullopt;
-  babyai::LevelSpec crowded = level;
-  crowded.objects = kObjects;
-  return crowded;
+  const bool fit = inside * inside >= 3 * kObjects && babyai::max_objects(level) >= kObjects;
+  if (babyai::objects(level).value_or(0) == 0 || !fit) return std::nullopt;
+  return babyai::with_objects(level, kObjects);
 }
 
 void RecentOutcomes::add(const std::vector<Outcome>& outcomes) {

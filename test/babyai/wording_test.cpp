@@ -61,13 +61,5 @@ TEST(Sentence, IsReadFromText) {
   EXPECT_EQ(sentence_of("").length, 0);
 }
 
-TEST(Vocabulary, IsAlphabeticalBehindPadding) {
-  EXPECT_EQ(word(kPadding), "");
-  EXPECT_TRUE(std::is_sorted(kWords.begin(), kWords.end()));
-  for (WordId id = 1; id < kVocabularySize; ++id) EXPECT_EQ(word_id(word(id)), id);
-  EXPECT_FALSE(word_id("").has_value());
-  EXPECT_FALSE(word_id("gone").has_value());
-}
-
 }  // namespace
 }  // namespace wordgaze::babyai

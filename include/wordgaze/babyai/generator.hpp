@@ -7,7 +7,8 @@
 namespace wordgaze::babyai {
 
 /// Draws an episode of a level: layouts until one is not rejected. False when that took too many
-/// tries; the reference would go on for ever.
+/// tries; the reference would go on for ever. Throws std::logic_error for a generator whose layout
+/// is none: without an agent, an instruction, or the target that it names.
 [[nodiscard]] bool generate(const LevelSpec& level, core::Rng& rng, grid::World& world, Task& task);
 
 /// The step limit that BabyAI gives an instruction in the rooms of a level.

@@ -1,17 +1,18 @@
 #pragma once
-#include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "wordgaze/babyai/instruction.hpp"
+#include "wordgaze/babyai/parameters.hpp"
+#include "wordgaze/grid/action.hpp"
 
 namespace wordgaze::babyai {
 
 class Layout;
 
-/// How the `done` action takes part. (spec 6 and 11)
+/// How the `done` action takes part. (docs/simulator.md, Done modes)
 enum class DoneMode : std::uint8_t {
   off,         ///< a clause counts when it comes true; done does nothing
   exact,       ///< BABYAI_DONE_ACTIONS of the reference, with actions passed as numbers
@@ -33,35 +34,11 @@ enum class Rule : std::uint8_t {
   dynamic_obstacles,  ///< walking into something fails; the target and all behind it move about
 };
 
-/// Shapes of the instructions that LevelGen draws.
-enum class Form : std::uint8_t { clause, both, ordered };
-
-inline constexpr std::array kAllVerbs{Verb::go_to, Verb::pickup, Verb::open, Verb::put_next};
-inline constexpr std::array kAllForms{Form::clause, Form::both, Form::ordered};
-
-/// What BabyAI's LevelGen may ask for. The lists are not owned; a single entry is not drawn.
-/// (spec 7)
-struct MissionSpec {
-  double locked_room = 0.5;     ///< probability that one room is locked
-  bool locations = true;        ///< "on your left"
-  bool unblocking = true;       ///< objects may have to be moved out of the way
-  bool implicit_unlock = true;  ///< the target may be in the locked room
-  std::span<const Verb> verbs = kAllVerbs;
-  std::span<const Form> forms = kAllForms;
-};
-
-/// MiniGrid's ObstructedMaze. (spec 9)
-struct MazeSpec {
-  int agent_column = 1, agent_row = 1;
-  bool key_in_box = true, blocked = true;
-  int quarters = 4;        ///< sides of the middle room with rooms to search
-  bool keys_last = false;  ///< placed behind the balls, which then cannot replace them (v1)
-};
-
-/// A generator draws one layout with its instruction; it throws Rejected to start over.
+/// A generator draws one layout with its task; it throws grid::Rejected to start over. The headers
+/// to write one: layout.hpp, stages.hpp, minigrid_stages.hpp and, to build on ours, generators.hpp.
 using Generator = void (*)(Layout& layout);
 
-/// One level: a row of data. What a generator does not use is left at its default.
+/// One level: a row of data.
 struct LevelSpec {
   std::string id;
   Generator generate = nullptr;
@@ -71,21 +48,33 @@ struct LevelSpec {
   DoneMode done_mode = DoneMode::off;
   Rule rule = Rule::instruction;
   bool see_through_walls = false;
-  int actions = 7;
-
-  int objects = 0;      ///< how many the generator scatters
-  bool unique = false;  ///< no two of them of the same type and color
-  int clauses = 1;      ///< of Wordgaze's tasks
-  bool strict = false;  ///< the wrong door or object is a failure
-  MissionSpec missions{};
-  MazeSpec maze{};
+  int actions = grid::kActions;  ///< the first so many
+  bool strict = false;           ///< the wrong door or object is a failure
+  Parameters parameters{};       ///< what its generator reads
 };
 
-/// The level of an id. Throws std::invalid_argument that offers the nearest known ids, or that says
-/// what does not fit.
+/// Grids have at most so many cells along a side.
+inline constexpr int kMaxGridSide = 1024;
+
+/// Throws std::invalid_argument that says level, field, value and what is allowed: for numbers out
+/// of range, parameters of another family than the generator's, more objects than fit.
+void validate(const LevelSpec& level);
+
+/// The level of an id: a built-in one, a registered one, Wordgaze-{One,Two,Three,Four}-N*-K*-v0, or
+/// one of these edited (level_edit.hpp). Throws std::invalid_argument that offers the nearest known
+/// ids, or that says what does not fit.
 LevelSpec find_level(std::string_view id);
 
-/// All ids of MiniGrid and BabyAI that are known, in the order of docs/levels.md.
+/// The levels of MiniGrid and BabyAI, in the order of docs/levels.md.
+std::span<const LevelSpec> built_in_levels();
+
+/// All ids that are known: the built-in ones, then the registered ones.
 std::vector<std::string> level_ids();
+
+/// Makes a level of one's own known by its id, as long as the program runs. States and traces refer
+/// to levels by id: register before they are restored or replayed. May be called by any thread.
+/// Throws std::invalid_argument for an id that is known already or that no id may look like, and
+/// for what validate() refuses.
+void register_level(LevelSpec level);
 
 }  // namespace wordgaze::babyai

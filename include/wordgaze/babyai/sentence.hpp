@@ -1,5 +1,7 @@
 #pragma once
 #include <array>
+#include <cstdint>
+#include <stdexcept>
 #include <string>
 
 #include "wordgaze/babyai/vocabulary.hpp"
@@ -18,7 +20,9 @@ struct Sentence {
   auto begin() const { return words.begin(); }
   auto end() const { return words.begin() + length; }
 
+  /// Throws std::length_error behind kMaxMissionWords.
   void append(WordId word, int sub_task) {
+    if (length == kMaxMissionWords) throw std::length_error("a mission has at most 73 words");
     words[length] = word;
     sub_task_of[length] = static_cast<std::int8_t>(sub_task);
     ++length;

@@ -34,8 +34,8 @@ struct Transition {
 /// environment as it was.
 class Environment {
  public:
-  /// Throws std::invalid_argument for an id that is not known or a room that cannot hold its
-  /// objects.
+  /// Throws std::invalid_argument for an id that is not known or a level that is not valid
+  /// (babyai::validate).
   explicit Environment(std::string_view id);
   explicit Environment(const babyai::LevelSpec& spec);
 

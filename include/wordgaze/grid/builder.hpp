@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 #include <span>
+#include <stdexcept>
 
 #include "wordgaze/core/rng.hpp"
 #include "wordgaze/grid/world.hpp"
@@ -12,10 +13,14 @@ namespace wordgaze::grid {
 /// Thrown by generators: this layout cannot be used, start over with the random stream where it is.
 struct Rejected {};
 
-/// Random draws and placements, in the order and number of MiniGrid's. (spec 2.2)
+/// Thrown where the reference's generator would never end.
+struct GaveUp {};
+
+/// Random draws and placements, in the order and number of MiniGrid's. (docs/simulator.md, Levels)
 class Builder {
  public:
   static constexpr int kUnlimited = std::numeric_limits<int>::max();
+  static constexpr int kPatience = 10'000'000;  ///< tries, where they are not limited
 
   Builder(World& w, core::Rng& r) : world(w), rng(r) {}
 
@@ -27,6 +32,7 @@ class Builder {
   bool coin() { return rng.below(2) == 0; }
   template <class T>
   const T& pick(std::span<const T> items) {
+    if (items.empty()) throw std::out_of_range("pick: nothing to pick from");
     return items[rng.below(static_cast<int>(items.size()))];
   }
   template <class T, std::size_t n>
@@ -38,6 +44,7 @@ class Builder {
   /// others keep their order.
   template <class Items>
   void pick_to_front(Items&& items, int count) {
+    if (count > static_cast<int>(items.size())) throw std::out_of_range("pick_to_front: too many");
     for (int i = 0; i < count; ++i) {
       const int index = between(i, static_cast<int>(items.size()));
       const auto drawn = items[index];
@@ -48,14 +55,16 @@ class Builder {
 
   /// Puts an object into a random empty cell of a rectangle, away from the agent and where
   /// `unfit(position)` is false. kNothing only looks for such a cell. Throws Rejected after
-  /// `max_tries` + 1 cells.
+  /// `max_tries` + 1 cells; GaveUp where no number of them would do.
   template <class Unfit>
   Position place(ObjectId id, Position corner, int width, int height, Unfit unfit,
                  int max_tries = kUnlimited) {
     const int left = std::max<int>(corner.x, 0), top = std::max<int>(corner.y, 0);
     const int right = std::min(left + width, world.grid.width());
     const int bottom = std::min(top + height, world.grid.height());
+    if (right <= left || bottom <= top) throw GaveUp{};
     for (int tries = 0; tries <= max_tries; ++tries) {
+      if (tries == kPatience) throw GaveUp{};
       // Both are drawn even where x alone dooms the cell.
       const int x = between(left, right);
       const Position p = at(x, between(top, bottom));

@@ -21,11 +21,13 @@ struct ObjectRange {
   ObjectId operator[](int k) const { return static_cast<ObjectId>(first + k); }
 };
 
-/// Builds a grid of square rooms that share their walls, as MiniGrid's RoomGrid. (spec 3)
+/// Builds a grid of square rooms that share their walls, as MiniGrid's RoomGrid. A room that the
+/// grid does not have throws std::out_of_range. (docs/simulator.md, Levels)
 class RoomGrid : public Builder {
  public:
   static constexpr int kMaxRooms = 25;
 
+  /// Throws std::invalid_argument for rooms below 3 x 3 cells, none, or more than kMaxRooms.
   RoomGrid(World& world, core::Rng& rng, int room_size, int columns, int rows);
 
   int columns() const { return columns_; }
@@ -73,8 +75,9 @@ class RoomGrid : public Builder {
     std::array<Position, 4> door_positions{};
     bool locked = false;
   };
-  Room& at_room(RoomIndex r) { return rooms_[r.row * columns_ + r.column]; }
-  const Room& at_room(RoomIndex r) const { return rooms_[r.row * columns_ + r.column]; }
+  std::size_t index(RoomIndex room) const;
+  Room& at_room(RoomIndex room) { return rooms_[index(room)]; }
+  const Room& at_room(RoomIndex room) const { return rooms_[index(room)]; }
   void connect(RoomIndex room, Direction side, ObjectId by);
   bool all_connected() const;
 
@@ -82,8 +85,5 @@ class RoomGrid : public Builder {
   std::array<Room, kMaxRooms> rooms_;
   std::uint32_t kinds_ = 0;  // the types and colors of all objects placed in rooms
 };
-
-/// Thrown where the reference's generator would never end.
-struct GaveUp {};
 
 }  // namespace wordgaze::grid
