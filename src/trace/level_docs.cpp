@@ -129,8 +129,7 @@ void write_row(std::ostream& out, const babyai::LevelSpec& level) {
   }
   const grid::Grid& grid = env.world().grid;
   fmt::print(out, "| {} | {} x {} | {} | {} | {} | {} |\n", level.id, grid.width(), grid.height(),
-             rooms(level), step_limit(level), level.see_through_walls ? "yes" : "no",
-             forms.text());
+             rooms(level), step_limit(level), level.see_through_walls ? "yes" : "no", forms.text());
 }
 
 }  // namespace

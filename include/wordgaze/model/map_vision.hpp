@@ -9,6 +9,26 @@
 
 namespace wordgaze::model {
 
+/// What an encoder of views need not say if it has no tables and keeps nothing but its map:
+/// inherit.
+template <std::floating_point S>
+struct PlainMapEncoder {
+  struct Tables {
+    static constexpr auto fields() { return std::tuple<>(); }
+  };
+  struct Cache {
+    Matrix<S> output, doutput;  ///< maps of C channels (view_map.hpp)
+    void resize(const Design& d, Index frames) {
+      for (auto* m : {&output, &doutput}) m->setZero(d.config.channels, map_columns(frames));
+    }
+  };
+  static void resize(const Design&, Tables&) {}
+  template <class Params>
+  static void refresh(const Design&, const Params&, Tables&) {}
+  template <class Params>
+  static void tables_backward(const Design&, const Tables&, Params&) {}
+};
+
 /// Vision (vision.hpp) by an encoder of whole views, whose encoding of a cell may depend on all 49:
 /// a map of C channels a frame (view_map.hpp). Scores compare it with the probes, the filtered view
 /// F = O~ * s(M), equation (F1), is formed and multiplied with W_x as any matrix is.
