@@ -2,7 +2,7 @@
 #include "wordgaze/babyai/minigrid_stages.hpp"
 #include "wordgaze/babyai/wording.hpp"
 
-// MiniGrid's levels whose episode ends on the goal square. (spec 9)
+// MiniGrid's levels whose episode ends on the goal square. (docs/simulator.md, Levels)
 namespace wordgaze::babyai::generators {
 
 using grid::at;
