@@ -50,8 +50,9 @@ import wordgaze_tasks  # noqa: E402
 
 gym.logger.min_level = gym.logger.ERROR
 WORDGAZE_IDS = [f"Wordgaze-{count}-N{size}-K{objects}{auto}-v0"
-                for count in ("One", "Two") for size, objects in ((5, 2), (8, 4), (8, 12), (12, 8))
-                for auto in ("", "-auto")]
+                for counts, sizes in ((("One", "Two"), ((5, 2), (8, 4), (8, 12), (12, 8))),
+                                      (("Three", "Four"), ((5, 4),)))
+                for count in counts for size, objects in sizes for auto in ("", "-auto")]
 
 
 def quietly(function, *args, **kwargs):

@@ -1,9 +1,10 @@
-"""Wordgaze's one-room tasks, written for the reference: Wordgaze-{One,Two}-N{N}-K{K}[-auto]-v0.
+"""Wordgaze's one-room tasks, written for the reference: Wordgaze-{One,Two,Three,Four}-N{N}-K{K}[-auto]-v0.
 
-A square room of N cells a side, walls included, with K objects, no two alike. One or two of them are
-targets: the agent is to go to a target or to pick it up; two targets are joined by "and", ", then" or
-"after you". Without -auto each sub-task is declared by its own done action, in its order ("sequential");
-with -auto the reference's verifier decides and done means nothing.
+A square room of N cells a side, walls included, with K objects, no two alike. One to four of them are
+targets: the agent is to go to a target or to pick it up. Two targets are joined by "and", ", then" or
+"after you"; of more, some are joined by "and" and the two parts are put in an order. Without -auto each
+sub-task is declared by its own done action, in its order ("sequential"); with -auto the reference's
+verifier decides and done means nothing. docs/simulator.md tells both.
 """
 import re
 
@@ -12,9 +13,17 @@ from minigrid.core.actions import Actions
 from minigrid.envs.babyai.core import verifier
 from minigrid.envs.babyai.core.roomgrid_level import RejectSampling, RoomGridLevel
 
-PATTERN = re.compile(r"Wordgaze-(One|Two)-N(\d+)-K(\d+)(-auto)?-v0")
-JOINS = {"and": verifier.AndInstr, "before": verifier.BeforeInstr, "after": verifier.AfterInstr}
+PATTERN = re.compile(r"Wordgaze-(One|Two|Three|Four)-N(\d+)-K(\d+)(-auto)?-v0")
+NUMBERS = ("One", "Two", "Three", "Four")
+And, Before, After = verifier.AndInstr, verifier.BeforeInstr, verifier.AfterInstr
 VERBS = {"goto": verifier.GoToInstr, "pickup": verifier.PickupInstr}
+
+
+def leaves(instruction):
+    """The sub-tasks of an instruction, in the order of the sentence."""
+    if not hasattr(instruction, "instr_a"):
+        return [instruction]
+    return leaves(instruction.instr_a) + leaves(instruction.instr_b)
 
 
 class OneRoomTask(RoomGridLevel):
@@ -36,23 +45,29 @@ class OneRoomTask(RoomGridLevel):
         targets = self._rand_subset(objects, self.targets)
         if len({(o.type, o.color) for o in targets}) < len(targets):
             raise RejectSampling("two targets of one kind")
-        parts = [self.sub_task(target) for target in targets]
-        if self.targets == 1:
-            (self.instrs,) = parts
-        else:
-            self.instrs = JOINS[self._rand_elem(list(JOINS))](*parts)
+        self.instrs = self.joined([self.sub_task(target) for target in targets])
 
-    def sub_tasks(self):
-        """In the order of the sentence."""
-        if self.targets == 1:
-            return [self.instrs]
-        return [self.instrs.instr_a, self.instrs.instr_b]
+    def joined(self, parts):
+        if len(parts) == 1:
+            return parts[0]
+        if len(parts) == 2:
+            return self._rand_elem([And, Before, After])(*parts)
+        order = self._rand_elem([Before, After])
+        if len(parts) == 4:
+            return order(And(*parts[:2]), And(*parts[2:]))
+        a, b, c = parts
+        return order(And(a, b), c) if self._rand_elem([True, False]) else order(a, And(b, c))
+
+    def completion_of(self, instruction, done):
+        """One 0/1 for each sub-task of an instruction; an instruction is done as a whole."""
+        if not hasattr(instruction, "instr_a"):
+            return [int(done)]
+        return (self.completion_of(instruction.instr_a, done or instruction.a_done == "success")
+                + self.completion_of(instruction.instr_b, done or instruction.b_done == "success"))
 
     @property
     def completion(self):
-        if self.targets == 1:
-            return [int(self.succeeded)]
-        return [int(done == "success") for done in (self.instrs.a_done, self.instrs.b_done)]
+        return self.completion_of(self.instrs, self.succeeded)
 
     def reset(self, **kwargs):
         self.succeeded = False
@@ -78,12 +93,18 @@ class DeclaredOneRoomTask(OneRoomTask):
         return [int(done) for done in self.declared]
 
     def declarable(self):
-        waiting = [k for k in range(self.targets) if not self.declared[k]]
-        if isinstance(self.instrs, verifier.BeforeInstr):
-            return waiting[:1]
-        if isinstance(self.instrs, verifier.AfterInstr):
-            return waiting[-1:]
-        return waiting
+        """Those of the part whose turn it is: the other part waits until it is all declared."""
+        parts = [range(self.targets)]
+        if isinstance(self.instrs, (Before, After)):
+            first = len(leaves(self.instrs.instr_a))
+            parts = [range(first), range(first, self.targets)]
+            if isinstance(self.instrs, After):
+                parts.reverse()
+        for part in parts:
+            waiting = [k for k in part if not self.declared[k]]
+            if waiting:
+                return waiting
+        return []
 
     def declare(self):
         """The verdict on a done action: success, failure, or None to go on."""
@@ -106,7 +127,7 @@ class DeclaredOneRoomTask(OneRoomTask):
             verdict = self.declare()
         else:
             for k in self.declarable():
-                self.true_now[k] = self.sub_tasks()[k].verify_action(action) == "success"
+                self.true_now[k] = leaves(self.instrs)[k].verify_action(action) == "success"
         if verdict is not None:
             terminated, reward = True, self._reward() if verdict == "success" else 0
         return observation, reward, terminated, truncated, info
@@ -121,5 +142,5 @@ def make(env_id):
     task = OneRoomTask if auto else DeclaredOneRoomTask
     if env_id not in gym.registry:
         gym.register(env_id, entry_point=task, kwargs={
-            "size": int(size), "objects": int(objects), "targets": 1 if count == "One" else 2})
+            "size": int(size), "objects": int(objects), "targets": 1 + NUMBERS.index(count)})
     return gym.make(env_id, disable_env_checker=True)

@@ -4,7 +4,7 @@
 #include "wordgaze/babyai/stages.hpp"
 
 // BabyAI's LevelGen: a maze of rooms, one of them perhaps locked, and any instruction of the
-// grammar. (spec 7)
+// grammar. (docs/simulator.md, Levels)
 namespace wordgaze::babyai::generators {
 
 using grid::Color;

@@ -6,8 +6,8 @@
 
 namespace wordgaze::babyai {
 
-/// The id of a level that was edited: "Base-v0[room_size=10,objects=4]". Each level has one id: any
-/// other way to write the edits is none.
+/// The id of a level that was edited: "Base-v0[room_size=10][objects=4]". Each level has one id:
+/// any other way to write the edits is none.
 struct EditedId {
   std::string base;
   Edit edit{};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <mutex>
 #include <stdexcept>
+#include <utility>
 
 #include "edited_id.hpp"
 #include "wordgaze/babyai/level_edit.hpp"
@@ -82,7 +83,7 @@ std::vector<std::string> level_ids() {
 
 void register_level(LevelSpec level) {
   const std::string& id = level.id;
-  // Programs take ids in lists, and brackets hold edits.
+  // Programs take ids in lists with commas, and brackets hold edits.
   require(!id.empty() && id.find_first_of(" \t\n,[]") == id.npos,
           "register_level: '{}' is no id; expected one without spaces, commas and brackets", id);
   require(!is_built_in(id) && !wordgaze_level(id),

@@ -1,8 +1,10 @@
+#include <algorithm>
+
 #include "wordgaze/babyai/generators.hpp"
 #include "wordgaze/babyai/minigrid_stages.hpp"
 #include "wordgaze/babyai/wording.hpp"
 
-// MiniGrid's levels about objects in one undivided grid. (spec 9)
+// MiniGrid's levels about objects in one undivided grid. (docs/simulator.md, Levels)
 namespace wordgaze::babyai::generators {
 
 using grid::at;

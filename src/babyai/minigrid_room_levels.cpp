@@ -2,7 +2,7 @@
 #include "wordgaze/babyai/minigrid_stages.hpp"
 #include "wordgaze/babyai/stages.hpp"
 
-// MiniGrid's levels built of rooms. (spec 9)
+// MiniGrid's levels built of rooms. (docs/simulator.md, Levels)
 namespace wordgaze::babyai::generators {
 
 using grid::Color;

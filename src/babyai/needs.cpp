@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <variant>
 
 #include "wordgaze/babyai/generators.hpp"
 
@@ -135,7 +136,7 @@ constexpr std::array kRows{
     Row{memory, from(7, kOneGrid)},
     Row{memory_random_length, from(7, kOneGrid)},
 
-    Row{open_locked_door, {.columns = 2, .others = 1, .doors = 1}},
+    Row{open_locked_door, {.columns = 2, .smallest = 4, .others = 1, .doors = 1}},
     Row{box_behind_door, kLockedBox},
     Row{blocked_box_behind_door, besides(3, kLockedBox)},
     Row{ball_off_corridor, kCorridor},

@@ -152,6 +152,10 @@ Besides these there are Wordgaze's own one-room tasks, for any room and number o
 and B after you C and D". Each clause is declared by its own `done`; in the same ids with `-auto`
 (`Wordgaze-One-N8-K4-auto-v0`) the verifier decides by itself. N is at least 5; K is at most 18, and at most half the free cells.
 
+An id of any level takes other rooms and another number of scattered objects, where it has such numbers and they fit:
+`BabyAI-GoToLocal-v0[room_size=10][objects=4]`. Step limits that are fixed stay. `babyai::register_level` adds levels of
+one's own to this list.
+
 The six MiniGrid-WFC levels are left out: the patterns that they are made from are missing from the
 reference's own package.
 

@@ -29,16 +29,16 @@ TEST(LevelEdit, ChangesTheNumbersInAWordgazeId) {
 TEST(LevelEdit, TellsInTheIdWhatIsDifferentInOtherLevels) {
   const LevelSpec level = find_level("BabyAI-GoToLocal-v0");
   const LevelSpec both = edited(level, {.room_size = 10, .objects = 4});
-  EXPECT_EQ(both.id, "BabyAI-GoToLocal-v0[room_size=10,objects=4]");
+  EXPECT_EQ(both.id, "BabyAI-GoToLocal-v0[room_size=10][objects=4]");
   EXPECT_EQ(with_room(with_objects(level, 4), 10).id, both.id);
   EXPECT_EQ(with_objects(level, 4).id, "BabyAI-GoToLocal-v0[objects=4]");
   EXPECT_EQ(with_objects(level, 8).id, level.id);
-  EXPECT_EQ(with_objects(both, 6).id, "BabyAI-GoToLocal-v0[room_size=10,objects=6]");
+  EXPECT_EQ(with_objects(both, 6).id, "BabyAI-GoToLocal-v0[room_size=10][objects=6]");
 }
 
 TEST(LevelEdit, IsFoundByItsId) {
-  const LevelSpec level = find_level("BabyAI-GoToLocal-v0[room_size=10,objects=4]");
-  EXPECT_EQ(level.id, "BabyAI-GoToLocal-v0[room_size=10,objects=4]");
+  const LevelSpec level = find_level("BabyAI-GoToLocal-v0[room_size=10][objects=4]");
+  EXPECT_EQ(level.id, "BabyAI-GoToLocal-v0[room_size=10][objects=4]");
   EXPECT_EQ(level.room_size, 10);
   EXPECT_EQ(objects(level), 4);
 }
@@ -46,7 +46,8 @@ TEST(LevelEdit, IsFoundByItsId) {
 TEST(LevelEdit, IsFoundByNoOtherId) {
   for (const char* id :
        {"BabyAI-GoToLocal-v0[]", "BabyAI-GoToLocal-v0[objects=4", "BabyAI-GoToLocal-v0[objects=8]",
-        "BabyAI-GoToLocal-v0[objects=4,room_size=10]", "BabyAI-GoToLocal-v0[objects=04]",
+        "BabyAI-GoToLocal-v0[objects=4][room_size=10]",
+        "BabyAI-GoToLocal-v0[room_size=10,objects=4]", "BabyAI-GoToLocal-v0[objects=04]",
         "BabyAI-GoToLocal-v0[rooms=4]", "[objects=4]", "Wordgaze-One-N8-K4-v0[objects=5]",
         "BabyAI-GoToLocal-v0[objects=99999999999]", "BabyAI-GoToLocal-v0[objects=40]"}) {
     EXPECT_THROW(find_level(id), std::invalid_argument) << id;

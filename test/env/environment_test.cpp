@@ -278,12 +278,20 @@ TEST(Environment, EndsWhenNothingIsLeftToBeDeclared) {
 }
 
 TEST(Environment, TruncatesAtItsStepLimit) {
-  Environment env("BabyAI-GoToObjS4-v0");
-  env.reset(0);
-  Transition t;
-  while (!t.truncated && !t.terminated) t = env.step(Action::toggle);
-  EXPECT_TRUE(t.truncated || t.terminated);
-  EXPECT_LE(env.step_count(), 16);
+  for (const char* id : {"BabyAI-PickupDist-v0", "MiniGrid-Empty-5x5-v0"}) {
+    Environment env(id);
+    env.reset(0);
+    const int limit = env.max_steps();
+    EXPECT_EQ(limit, id[0] == 'B' ? 49 : 100);
+    for (int n = 1; n < limit; ++n) {
+      const Transition t = env.step(Action::left);
+      ASSERT_FALSE(t.truncated || t.terminated) << id << ' ' << n;
+    }
+    const Transition last = env.step(Action::left);
+    EXPECT_TRUE(last.truncated) << id;
+    EXPECT_FALSE(last.terminated) << id;
+    EXPECT_EQ(last.reward, 0) << id;
+  }
 }
 
 TEST(Environment, JoinsThreeAndFourClausesInEveryWayOfTheGrammar) {

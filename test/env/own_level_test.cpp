@@ -131,7 +131,7 @@ TEST_F(OwnLevel, ResumesFromItsSerializedState) {
 }
 
 TEST_F(OwnLevel, MayBeEdited) {
-  Environment env("Own-FetchThroughDoor-v0[room_size=8,objects=5]");
+  Environment env("Own-FetchThroughDoor-v0[room_size=8][objects=5]");
   env.reset(1);
   EXPECT_EQ(env.world().grid.width(), 15);
   EXPECT_EQ(env.world().objects.size(), 2u + 3 + 5);

@@ -25,26 +25,23 @@ struct PlaceEncoder : model::PlainMapEncoder<S> {
   }
   static void forward(const model::Design& d, const Params& p, const Tables&,
                       const model::CellMatrix& cells, Cache& k) {
-    for_each_column(
-        d, cells, k.output, [&](auto y) { y.setZero(); },
-        [&](auto y, Index column) { y += p.weight.col(column); });
+    for_each_column(d, cells, k.output, [&](auto y, Index column, bool first) {
+      y = p.weight.col(column) + (first ? S(0) : S(1)) * y;
+    });
   }
   static void backward(const model::Design& d, const Params&, const Tables&,
                        const model::CellMatrix& cells, Cache& k, Params& grads, Tables&) {
-    for_each_column(
-        d, cells, k.doutput, [](auto) {},
-        [&](auto dy, Index column) { grads.weight.col(column) += dy; });
+    for_each_column(d, cells, k.doutput,
+                    [&](auto dy, Index column, bool) { grads.weight.col(column) += dy; });
   }
-  template <class Begin, class F>
+  template <class F>
   static void for_each_column(const model::Design& d, const model::CellMatrix& cells,
-                              Matrix<S>& map, Begin&& begin, F&& f) {
-    for (Index n = 0; n < cells.cols(); ++n) {
-      for (Index c = 0; c < grid::kViewCells; ++c) {
-        const auto cell = [&] { return model::map_frame(map, n).col(model::map_slot(c)); };
-        begin(cell());
-        f(cell(), model::kCellFeatures + c);
-        for (const int row : model::features(d.alphabet[cells(c, n)])) f(cell(), row);
-      }
+                              Matrix<S>& map, F&& f) {
+    for (Index i = 0; i < cells.size(); ++i) {
+      const Index n = i / grid::kViewCells, c = i % grid::kViewCells;
+      const auto cell = [&] { return model::map_frame(map, n).col(model::map_slot(c)); };
+      f(cell(), model::kCellFeatures + c, true);
+      for (const int row : model::features(d.alphabet[cells(c, n)])) f(cell(), row, false);
     }
   }
 };
@@ -58,7 +55,7 @@ int main() {
   training::BasicTrainer<OwnAgent> trainer(config);
   const Matrix<float> before = trainer.params().vision.weight;
   while (!trainer.finished()) trainer.update();
-  const auto moved = (trainer.params().vision.weight - before).rightCols(grid::kViewCells).norm();
+  const float moved = (trainer.params().vision.weight - before).rightCols(grid::kViewCells).norm();
   std::printf("what places mean has moved by %.3f\n", static_cast<double>(moved));
   return moved > 0 ? 0 : 1;
 }

@@ -16,7 +16,7 @@ Image observed(const World& world) {
   return image;
 }
 
-// The view as the specification tells it, cell by cell. (spec 2.6)
+// The view as the specification tells it, cell by cell. (docs/simulator.md, Views)
 struct PlainView {
   explicit PlainView(const World& world) {
     const Position d = forward(world.direction), r{static_cast<std::int16_t>(-d.y), d.x};

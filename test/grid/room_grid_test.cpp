@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <stdexcept>
+
 #include "grid/drawn_world.hpp"
 
 namespace wordgaze::grid {
@@ -38,6 +41,43 @@ TEST(RoomGrid, ConnectsAllRooms) {
     EXPECT_GE(world.objects.size(), 2u + 8u);  // nine rooms need eight doors
     EXPECT_TRUE(rooms.all_reachable()) << seed;
   }
+}
+
+TEST(RoomGrid, RefusesRoomsThatItCannotHold) {
+  World world;
+  core::Rng rng(1);
+  constexpr auto kHostile = std::to_array<std::array<int, 3>>(
+      {{2, 1, 1}, {5, 0, 1}, {5, 1, 0}, {5, 26, 1}, {5, 5, 6}, {5, 1 << 16, 1 << 16}});
+  for (const auto& [size, columns, rows] : kHostile) {
+    EXPECT_THROW(RoomGrid(world, rng, size, columns, rows), std::invalid_argument)
+        << size << ' ' << columns << ' ' << rows;
+  }
+}
+
+TEST(RoomGrid, HasNoRoomsOutside) {
+  World world;
+  core::Rng rng(1);
+  RoomGrid rooms(world, rng, 5, 2, 1);
+  EXPECT_THROW(rooms.door({2, 0}, Direction::left), std::out_of_range);
+  EXPECT_THROW(rooms.door({0, -1}, Direction::left), std::out_of_range);
+  EXPECT_THROW(rooms.add_door({0, 0}, Direction::up), std::out_of_range);
+  EXPECT_EQ(world.objects.size(), 2u);  // no half a door
+}
+
+TEST(RoomGrid, GivesUpOnOneDoorMoreThanThereAreWalls) {
+  World world;
+  core::Rng rng(1);
+  RoomGrid rooms(world, rng, 5, 2, 1);
+  rooms.add_door({0, 0});
+  EXPECT_THROW(rooms.add_door({0, 0}), GaveUp);
+}
+
+TEST(RoomGrid, GivesUpOnMoreKindsThanThereAre) {
+  World world;
+  core::Rng rng(1);
+  RoomGrid rooms(world, rng, 12, 1, 1);
+  EXPECT_EQ(rooms.scatter(std::nullopt, 18, true).size(), 18);
+  EXPECT_THROW(rooms.scatter(std::nullopt, 1, true), GaveUp);
 }
 
 // Where a room is full, the reference draws 1001 cells and starts over.

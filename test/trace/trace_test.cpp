@@ -5,6 +5,7 @@
 #include <set>
 #include <sstream>
 
+#include "wordgaze/babyai/layout.hpp"
 #include "wordgaze/babyai/level.hpp"
 #include "wordgaze/trace/record.hpp"
 #include "wordgaze/trace/replay.hpp"
@@ -63,7 +64,11 @@ INSTANTIATE_TEST_SUITE_P(, GoldenTrace, testing::ValuesIn(goldens()), [](const a
 TEST(GoldenTraces, CoverEveryLevel) {
   std::set<std::string> ids;
   for (const Golden& golden : goldens()) ids.insert(golden.id);
-  for (const std::string& id : babyai::level_ids()) EXPECT_TRUE(ids.contains(id)) << id;
+  for (const auto& level : babyai::built_in_levels()) EXPECT_TRUE(ids.contains(level.id));
+  for (const char* id : {"Wordgaze-One-N5-K2-v0", "Wordgaze-Two-N5-K2-v0",
+                         "Wordgaze-Three-N5-K4-v0", "Wordgaze-Four-N5-K4-v0"}) {
+    EXPECT_TRUE(ids.contains(id)) << id;
+  }
 }
 
 std::string recorded(RecordOptions options) {
@@ -105,6 +110,30 @@ TEST(Trace, RecordsWhoeverActs) {
     ++steps;
   }
   EXPECT_EQ(steps, 2 * 5);
+}
+
+// A level of a user's own: a ball to go to.
+TEST(Trace, ReplaysALevelOfOnesOwn) {
+  babyai::register_level({.id = "Own-GoToBall-v0",
+                          .generate =
+                              [](babyai::Layout& layout) {
+                                layout.place_agent();
+                                const auto ball = layout.add_object({}, grid::Type::ball);
+                                layout.scatter_objects();
+                                layout.require_reachable();
+                                layout.ask(babyai::Verb::go_to, layout.describe(ball));
+                              },
+                          .room_size = 6,
+                          .rows = 1,
+                          .columns = 1,
+                          .parameters = babyai::Objects{.count = 3}});
+  std::istringstream trace(
+      recorded({.ids = {"Own-GoToBall-v0", "Own-GoToBall-v0[room_size=9]"}, .steps = 50}));
+  std::ostringstream details;
+  const ReplayReport report = replay(trace, details);
+  EXPECT_EQ(report.mismatches, 0) << details.str();
+  EXPECT_EQ(report.envs, 2);
+  EXPECT_EQ(report.steps, 2 * 4 * 50);
 }
 
 // A trace with one field of one record changed is found, whatever the field.

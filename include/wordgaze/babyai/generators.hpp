@@ -2,7 +2,7 @@
 #include "wordgaze/babyai/layout.hpp"
 
 /// The generators of the level table, by family. Each draws what its level in the reference draws,
-/// in the same order. (spec 7, 8, 9 and 11)
+/// in the same order. (docs/simulator.md, Levels)
 namespace wordgaze::babyai::generators {
 
 void one_room_task(Layout& layout);

@@ -20,7 +20,7 @@ struct Edit {
 
 /// The same level, edited; valid, and with an id that tells what it is, which find_level knows when
 /// it knows that of the level: Wordgaze-One-N12-K8-v0, or
-/// BabyAI-GoToLocal-v0[room_size=10,objects=4]. Throws std::invalid_argument for a number that the
+/// BabyAI-GoToLocal-v0[room_size=10][objects=4]. Throws std::invalid_argument for a number that the
 /// level cannot have.
 LevelSpec edited(const LevelSpec& level, const Edit& edit);
 

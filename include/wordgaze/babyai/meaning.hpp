@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "wordgaze/babyai/instruction.hpp"
 #include "wordgaze/grid/world.hpp"
 
@@ -8,7 +10,8 @@ namespace wordgaze::babyai {
 bool lies(grid::Position p, Location side, grid::Position agent, grid::Direction direction);
 
 /// The objects in the grid that a description fits; with a location, only those in the room of the
-/// agent. A description without a type also fits walls, as in the reference. (spec 5.1)
+/// agent. A description without a type also fits walls, as in the reference. (docs/simulator.md,
+/// Descriptions)
 grid::ObjectSet matching_objects(const grid::World& world, const Description& description);
 
 /// Which objects the descriptions of an instruction mean, from when the episode begins until it

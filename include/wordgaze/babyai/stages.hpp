@@ -1,4 +1,7 @@
 #pragma once
+#include <array>
+#include <optional>
+
 #include "wordgaze/babyai/layout.hpp"
 
 /// Stages that several generators share.
@@ -16,7 +19,7 @@ struct LockedRoom {
   grid::ObjectId door;
 };
 /// Locks a random room and puts the key into a random one. As in the reference, which means to
-/// avoid it, that may be the locked room itself. (spec 13)
+/// avoid it, that may be the locked room itself. (docs/simulator.md, Levels)
 LockedRoom lock_a_room(Layout& layout);
 
 /// Distractors in each room, column by column, the locked one included.

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -15,7 +16,7 @@ enum class Status : std::uint8_t { none, ongoing, success, failure };
 
 /// Watches an instruction being carried out. It knows objects by identity, and where each one stood
 /// when the episode began or something was last dropped: such a position may be out of date, as in
-/// the reference. (spec 5 and 6)
+/// the reference. (docs/simulator.md, Verification)
 class Verifier {
  public:
   /// Starts to watch. Nothing is completed.

@@ -1,5 +1,6 @@
 #pragma once
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -27,7 +28,7 @@ class Seed {
 };
 
 /// NumPy's default generator: PCG64 seeded by SeedSequence, with the integer, real and shuffle
-/// draws of numpy.random.Generator, bit for bit. (spec 1)
+/// draws of numpy.random.Generator, bit for bit. (docs/simulator.md, Random numbers)
 class Rng {
  public:
   /// All there is to it; equal states go on identically.

@@ -10,7 +10,8 @@ struct Events {
   bool entered_lava = false;
 };
 
-/// One action of the agent; the only place where a running world changes. (spec 2.5)
+/// One action of the agent; the only place where a running world changes. (docs/simulator.md,
+/// Actions)
 Events step(World& world, Action action);
 
 /// Puts what stands at a position into the agent's hand, if it can be carried and the hand is
