@@ -23,7 +23,7 @@ class Painter final : public policy::Observer {
   int pictures() const { return pictures_; }
 
   /// Before each step: the world as it is, and whether a target is in view.
-  void look(bool target_in_view) {
+  void before_step(bool target_in_view) {
     before_ = environment_->world();
     comes_into_view_ = target_in_view && !seen_;
     seen_ = seen_ || target_in_view;
@@ -80,12 +80,12 @@ inline int draw_pictures(const model::Config& config, const policy::Agent::Param
     episode.begin(policy, 0);
     episode.report(painter, {.number = number, .lane = 0, .seed = world});
     for (bool ended = false; !ended;) {
-      episode.look();
+      episode.observe();
       policy.observe(0, episode.observation);
       const auto decision = policy.decide(policy::Sampled{rng})[0];
       const auto roles =
           evaluation::roles_of(episode.observation.image, episode.environment.progress());
-      painter.look(std::ranges::find(roles, evaluation::Role::target) != roles.end());
+      painter.before_step(std::ranges::find(roles, evaluation::Role::target) != roles.end());
       ended = episode.step(policy, 0, decision).ended();
     }
   }

@@ -1,4 +1,4 @@
-#include "wordgaze/bot/drop_place.hpp"
+#include "drop_place.hpp"
 
 #include <array>
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "drop_place.hpp"
 #include "wordgaze/bot/bot.hpp"
-#include "wordgaze/bot/drop_place.hpp"
 
 namespace wordgaze::bot {
 

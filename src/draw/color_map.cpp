@@ -1,4 +1,4 @@
-#include "wordgaze/draw/color_map.hpp"
+#include "color_map.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "canvas.hpp"
+#include "color_map.hpp"
 #include "wordgaze/core/require.hpp"
-#include "wordgaze/draw/color_map.hpp"
 #include "wordgaze/draw/tile.hpp"
 #include "wordgaze/grid/action.hpp"
 

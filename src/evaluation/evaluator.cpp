@@ -64,7 +64,7 @@ EvaluationResult run_share(const PolicyFactory& make_policy, const Evaluation& e
     for (int b = 0; b < lane_count; ++b) {
       Lane& lane = lanes[static_cast<std::size_t>(b)];
       if (!lane.running) continue;
-      lane.episode.look();
+      lane.episode.observe();
       policy->observe(b, lane.episode.observation);
     }
     const auto decisions = policy->decide(sampler);
@@ -175,7 +175,7 @@ Pointing probe_gaze(policy::Policy& policy, const babyai::LevelSpec& level, int 
   for (int t = 0; t < steps; ++t) {
     for (int b = 0; b < policy.lanes(); ++b) {
       Episode& episode = episodes[static_cast<std::size_t>(b)];
-      episode.look();
+      episode.observe();
       policy.observe(b, episode.observation);
     }
     const auto decisions = policy.decide(policy::Sampled{rng});

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "wordgaze/evaluation/words.hpp"
+#include "words.hpp"
 
 namespace wordgaze::evaluation {
 

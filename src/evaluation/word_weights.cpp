@@ -1,6 +1,6 @@
 #include "wordgaze/evaluation/word_weights.hpp"
 
-#include "wordgaze/evaluation/words.hpp"
+#include "words.hpp"
 
 namespace wordgaze::evaluation {
 

@@ -12,8 +12,8 @@
 #include <thread>
 #include <utility>
 
+#include "bounded_queue.hpp"
 #include "wordgaze/core/require.hpp"
-#include "wordgaze/lcm/bounded_queue.hpp"
 
 namespace wordgaze::lcm_io {
 namespace {

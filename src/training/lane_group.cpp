@@ -31,7 +31,7 @@ LaneGroup::LaneGroup(std::unique_ptr<policy::Policy> policy, const TrainConfig& 
     lanes_.push_back({evaluation::Episode(blank), lane_rng(config.seed, first + lane)});
     lanes_.back().episode.environment.reset(world_seed(config.seed, first + lane));
     start_episode(lane, beginning);
-    look(lane);
+    observe(lane);
   }
 }
 
@@ -59,7 +59,7 @@ void LaneGroup::collect(const Curriculum& curriculum, Rollout& rollout,
     return policy::Sampled{lanes_[static_cast<std::size_t>(b)].rng}(b, log_probs);
   };
   for (Index t = 0; t < rollout.shape.steps; ++t) {
-    for (int b = 0; b < lanes; ++b) look(b);
+    for (int b = 0; b < lanes; ++b) observe(b);
     const auto& frames = policy_->frames();
     if (t % rollout.chunk == 0) {
       const Index sequence = (t / rollout.chunk) * rollout.shape.batch + first_;
@@ -76,14 +76,14 @@ void LaneGroup::collect(const Curriculum& curriculum, Rollout& rollout,
     }
   }
   value_cuts(rollout);
-  for (int b = 0; b < lanes; ++b) look(b);
+  for (int b = 0; b < lanes; ++b) observe(b);
   const auto values = policy_->values();
   std::copy(values.begin(), values.end(), rollout.next_value.begin() + first_);
 }
 
-void LaneGroup::look(int b) {
+void LaneGroup::observe(int b) {
   Lane& lane = lanes_[static_cast<std::size_t>(b)];
-  lane.episode.look();
+  lane.episode.observe();
   lane.stretch.apply(lane.episode.observation.image);
   policy_->observe(b, lane.episode.observation);
 }
@@ -117,7 +117,7 @@ void LaneGroup::step_lane(int b, Index column, const policy::Decision& decision,
   outcomes_.push_back(
       {episode.outcome(), instruction.clause[0].verb, instruction.clauses(), lane.helped});
   if (episode.outcome().truncated) {
-    look(b);  // the final observation
+    observe(b);  // the final observation
     policy_->keep(b);
     cuts_.push_back(column);
   }
@@ -157,7 +157,7 @@ void LaneGroup::restore(int b, const LaneState& state) {
   lane.episode.begin(*policy_, b);
   lane.episode.set_episode_return(state.episode_return);
   policy_->set_memory(b, state.memory);
-  look(b);
+  observe(b);
 }
 
 }  // namespace wordgaze::training

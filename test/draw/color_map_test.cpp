@@ -1,4 +1,4 @@
-#include "wordgaze/draw/color_map.hpp"
+#include "draw/color_map.hpp"
 
 #include <gtest/gtest.h>
 

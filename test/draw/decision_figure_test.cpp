@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "draw/color_map.hpp"
 #include "support/messages.hpp"
-#include "wordgaze/draw/color_map.hpp"
 #include "wordgaze/env/environment.hpp"
 
 namespace wordgaze::draw {

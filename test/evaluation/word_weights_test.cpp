@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "wordgaze/evaluation/words.hpp"
+#include "evaluation/words.hpp"
 
 namespace wordgaze::evaluation {
 namespace {

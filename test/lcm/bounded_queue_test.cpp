@@ -1,4 +1,4 @@
-#include "wordgaze/lcm/bounded_queue.hpp"
+#include "lcm/bounded_queue.hpp"
 
 #include <gtest/gtest.h>
 

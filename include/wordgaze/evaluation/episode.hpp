@@ -19,7 +19,7 @@ struct Outcome {
 /// by step.
 ///
 ///     episode.begin(policy, lane);          // the environment has been reset
-///     episode.look();                       // and, if need be, change what was seen
+///     episode.observe();                    // and, if need be, change what was seen
 ///     policy.observe(lane, episode.observation);
 ///     const auto decisions = policy.decide(sampler);
 ///     if (episode.step(policy, lane, decisions[lane]).ended()) episode.outcome();
@@ -41,7 +41,7 @@ class Episode {
   /// Before the first step: the episode is reported, if the observer wants it.
   void report(policy::Observer& observer, const Identity& identity);
 
-  void look() { policy::observe(environment, observation); }
+  void observe() { policy::observe(environment, observation); }
 
   struct Step {
     env::Transition transition;

@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 
 #include "wordgaze/model/agent.hpp"
 
@@ -66,32 +67,44 @@ struct ReferenceAgent {
                     convolve(patches.first.weight, patches.first.bias, view));
   }
 
-  /// (A1)-(A6) and (T1)-(T3): what scales the encoding of each cell, s(M) [49].
-  Vector<S> scale(const Frames<S>& x, Index n, const Matrix<S>& encoding,
-                  const babyai::Sentence& mission) const {
+  /// Where a frame's mission looks.
+  struct Attention {
+    Matrix<S> maps;     ///< A [words, 49]
+    Vector<S> weights;  ///< w [words]
+    Vector<S> mask;     ///< alpha [words]; ones without the Task Attention Module
+    Vector<S> gaze;     ///< M [49]
+    Vector<S> scale;    ///< s(M) [49]; all there is without attention, ones
+  };
+
+  /// (A1)-(A6) and (T1)-(T3).
+  Attention attend(const Frames<S>& x, Index n, const Matrix<S>& encoding,
+                   const babyai::Sentence& mission) const {
     const Config& c = design.config;
-    if (!c.attention) return Vector<S>::Ones(grid::kViewCells);
-    Matrix<S> maps(mission.length, grid::kViewCells);
+    Attention a;
+    if (!c.attention) return {.scale = Vector<S>::Ones(grid::kViewCells)};
+    a.maps.resize(mission.length, grid::kViewCells);
     Vector<S> entropy(mission.length);
     for (int i = 0; i < mission.length; ++i) {
       const auto word = mission.words[static_cast<std::size_t>(i)];
       const Vector<S> q = params.attention.query * params.words.col(word);
       for (Index cell = 0; cell < grid::kViewCells; ++cell) {
         const Vector<S> k = params.attention.key * encoding.col(cell);
-        maps(i, cell) = std::exp(q.dot(k) / std::sqrt(static_cast<S>(c.key_size)));
+        a.maps(i, cell) = std::exp(q.dot(k) / std::sqrt(static_cast<S>(c.key_size)));
       }
-      maps.row(i) /= maps.row(i).sum();
-      entropy(i) = -(maps.row(i).array() * maps.row(i).array().log()).sum() /
+      a.maps.row(i) /= a.maps.row(i).sum();
+      entropy(i) = -(a.maps.row(i).array() * a.maps.row(i).array().log()).sum() /
                    std::log(static_cast<S>(c.entropy_base));
     }
-    Vector<S> w = (-entropy.array()).exp();
-    w /= w.sum();
-    if (c.task_attention) w.array() *= mask(x, n, w, mission).array();
-    const Vector<S> gaze = maps.transpose() * w;
+    a.weights = (-entropy.array()).exp();
+    a.weights /= a.weights.sum();
+    a.mask = c.task_attention ? mask(x, n, a.weights, mission) : Vector<S>::Ones(mission.length);
+    a.gaze = a.maps.transpose() * (a.mask.array() * a.weights.array()).matrix();
     const auto floor = static_cast<S>(c.gaze_floor);
-    return floor +
-           (1 - floor) *
-               (gaze.array() / (gaze.maxCoeff() + S(1e-6))).pow(static_cast<S>(c.gaze_exponent));
+    a.scale =
+        floor +
+        (1 - floor) *
+            (a.gaze.array() / (a.gaze.maxCoeff() + S(1e-6))).pow(static_cast<S>(c.gaze_exponent));
+    return a;
   }
 
   /// (T1)-(T3): alpha, a number a word.
@@ -111,11 +124,13 @@ struct ReferenceAgent {
     return alpha.head(mission.length);
   }
 
-  /// (M1)-(M4) and (H): logits over value, [8, N].
-  Matrix<S> run(const Frames<S>& x, const Missions& missions) const {
+  /// (M1)-(M4) and (H). The mask of words behind the end of a mission is 1.
+  Outputs<S> run(const Frames<S>& x, const Missions& missions) const {
     const Config& c = design.config;
     const Index hidden = c.memory_size;
-    Matrix<S> out(grid::kActions + 1, x.shape.columns());
+    Outputs<S> out;
+    out.resize(c, x.shape.columns());
+    out.mask.setOnes();
     for (Index b = 0; b < x.shape.batch; ++b) {
       Vector<S> h = x.start.h.col(b), memory = x.start.c.col(b);
       for (Index t = 0; t < x.shape.steps; ++t) {
@@ -123,7 +138,9 @@ struct ReferenceAgent {
         if (x.keep(0, n) == 0) h.setZero(), memory.setZero();
         const auto& mission = missions[x.mission(n)];
         const Matrix<S> encoding = encode(x, n);
-        const Matrix<S> filtered = encoding * scale(x, n, encoding, mission).asDiagonal();
+        const Attention attention = attend(x, n, encoding, mission);
+        if (c.task_attention) out.mask.col(n).head(mission.length) = attention.mask;
+        const Matrix<S> filtered = encoding * attention.scale.asDiagonal();
         const auto& m = params.memory;
         Vector<S> z = m.input_weight * filtered.reshaped() + m.hidden_weight * h + m.bias;
         if (c.completion_input) z += params.completion * x.completion.col(n);
@@ -137,7 +154,8 @@ struct ReferenceAgent {
                      (p.hidden.weight * features + p.hidden.bias).array().tanh().matrix() +
                  p.output.bias;
         };
-        out.col(n) << head(params.actor), head(params.critic);
+        out.logits.col(n) = head(params.actor);
+        out.values.col(n) = head(params.critic);
       }
     }
     return out;

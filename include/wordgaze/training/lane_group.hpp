@@ -48,7 +48,7 @@ class LaneGroup {
     std::int64_t number = 0;  // of the episode
   };
   void start_episode(int lane, const Curriculum& curriculum);
-  void look(int lane);
+  void observe(int lane);
   void step_lane(int lane, Index column, const policy::Decision& decision,
                  const Curriculum& curriculum, Rollout& rollout, policy::Observer* observer);
   void value_cuts(Rollout& rollout);
