@@ -238,6 +238,40 @@ TEST(Differences, ListsSettingsThatDisagree) {
   EXPECT_EQ(differences(Config{}, other), expected);
 }
 
+/// A setting that was called something else.
+struct Renamed {
+  int sub_tasks = 4;
+  static constexpr auto settings() {
+    return std::tuple{Setting{"sub_tasks", &Renamed::sub_tasks, "of a mission", 1, 8, "clauses"}};
+  }
+};
+struct WithRenamed {
+  Renamed model{};
+  int other = 0;
+  static constexpr auto settings() {
+    return std::tuple{Setting{"other", &WithRenamed::other, "other"},
+                      Setting{"model", &WithRenamed::model, "the network"}};
+  }
+};
+
+TEST(RenamedSetting, IsReadByItsFormerNameAndWrittenByItsOwn) {
+  auto config = parse_config<WithRenamed>("[model]\nclauses = 7\n", "old.toml");
+  EXPECT_EQ(config.model.sub_tasks, 7);
+  set_option(config, "model.clauses=3");
+  EXPECT_EQ(config.model.sub_tasks, 3);
+  EXPECT_TRUE(contains(to_toml(config), "sub_tasks = 3"));
+  EXPECT_FALSE(contains(to_toml(config), "clauses"));
+  EXPECT_THROW(set_option(config, "model.clauses=9"), std::invalid_argument);
+}
+
+TEST(Section, IsReadWithoutTheOthers) {
+  const std::string text = "foreign = true\n[model]\nsub_tasks = 2\n[ppo]\nclip = 0.1\n";
+  EXPECT_EQ(parse_section<Renamed>(text, "model", "file.toml").sub_tasks, 2);
+  EXPECT_EQ(parse_section<Renamed>("[ppo]\nclip = 1\n", "model", "file.toml").sub_tasks, 4);
+  EXPECT_THROW(parse_section<Renamed>("[model]\nsub_task = 2\n", "model", "file.toml"),
+               std::invalid_argument);
+}
+
 TEST(Reference, ListsEachSettingOfEachSection) {
   const std::string text = to_markdown<Config>();
   EXPECT_TRUE(contains(text, "| `attention` | `true` |  | look at words |\n"));

@@ -59,6 +59,17 @@ TEST_F(Eval, ReportsEverySetting) {
   }
 }
 
+TEST_F(Eval, ChangesRoomsAndObjectsOfEveryLevelThatHasThem) {
+  const Shell::Result evaluated =
+      run("eval --checkpoint ckpt --env BabyAI-GoToLocal-v0 --rooms 6,10 --objects 3 --episodes 5 "
+          "--greedy --json e.json");
+  ASSERT_TRUE(succeeded(evaluated));
+  const auto report = nlohmann::json::parse(run.read("e.json"));
+  ASSERT_EQ(report.at("settings").size(), 2u);
+  EXPECT_EQ(report["settings"][1].at("room"), 10);
+  EXPECT_EQ(report["settings"][1].at("objects"), 3);
+}
+
 /// The first row of a model's card: environment, policy and success in percent.
 std::smatch first_row(const std::string& card) {
   static const std::regex row(
@@ -141,8 +152,8 @@ TEST_F(Eval, RefusesMissingDamagedAndForeignCheckpoints) {
 TEST_F(Eval, RefusesUnknownEnvironments) {
   EXPECT_TRUE(refused(run("eval --checkpoint ckpt --env BabyAI-GoToLokal-v0"),
                       "BabyAI-GoToLokal-v0", "BabyAI-GoToLocal-v0"));
-  EXPECT_TRUE(refused(run("eval --checkpoint ckpt --env BabyAI-GoToLocal-v0 --rooms 8"), "--rooms",
-                      "BabyAI-GoToLocal-v0"));
+  EXPECT_TRUE(refused(run("eval --checkpoint ckpt --env MiniGrid-MultiRoom-N6-v0 --objects 4"),
+                      "MiniGrid-MultiRoom-N6-v0", "objects"));
 }
 
 TEST_F(Eval, RefusesARoomTooSmallForItsObjects) {

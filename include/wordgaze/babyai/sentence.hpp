@@ -1,11 +1,14 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
 #include "wordgaze/babyai/vocabulary.hpp"
+#include "wordgaze/core/require.hpp"
 
 namespace wordgaze::babyai {
 
@@ -33,10 +36,32 @@ struct Sentence {
 };
 
 /// The sentence as the reference writes it: single spaces, the comma glued to the word before it.
-std::string text(const Sentence& sentence);
+inline std::string text(const Sentence& sentence) {
+  std::string out;
+  for (const WordId id : sentence) {
+    if (!out.empty() && word(id) != ",") out += ' ';
+    out += word(id);
+  }
+  return out;
+}
 
 /// The words of a text in the vocabulary, all of one sub-task. Throws std::invalid_argument that
 /// names the word that is not in the vocabulary.
-Sentence sentence_of(std::string_view text, int sub_task = 0);
+inline Sentence sentence_of(std::string_view text, int sub_task = 0) {
+  Sentence sentence;
+  std::size_t start = 0;
+  while ((start = text.find_first_not_of(' ', start)) != text.npos) {
+    // A comma is a word of its own.
+    const std::size_t end = text[start] == ',' ? start + 1 : text.find_first_of(" ,", start);
+    const std::string_view part = text.substr(start, end - start);
+    const std::optional<WordId> id = word_id(part);
+    require(id.has_value(), "mission '{}': '{}' is not in the vocabulary", text, part);
+    require(sentence.length < kMaxMissionWords, "mission '{}': more than {} words", text,
+            kMaxMissionWords);
+    sentence.append(*id, sub_task);
+    start = end;
+  }
+  return sentence;
+}
 
 }  // namespace wordgaze::babyai

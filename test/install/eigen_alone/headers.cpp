@@ -1,25 +1,20 @@
-// The network from headers alone: nothing of the library is linked.
+// nn, model and policy from headers alone: nothing of the library is linked.
 #include <cstdio>
 
-#include <wordgaze/model/agent.hpp>
+#include <wordgaze/policy/network_policy.hpp>
 
 int main() {
   using namespace wordgaze;
   const model::Agent<float> agent(model::Config{}, model::CellAlphabet::one_room());
   auto weights = agent.make_weights();
-  weights.params.actor.output.bias(2) = 1;
+  weights.params.actor.output.bias(2) = 1;  // 'forward', whatever it sees
   agent.refresh(weights);
-  model::Frames<float> frames;
-  frames.resize(agent.config, {1, 1});
-  model::Missions missions;
-  babyai::Sentence mission;
-  mission.append(*babyai::word_id("ball"), 0);
-  missions.index_of(mission);
-  model::Agent<float>::Cache cache;
-  model::Outputs<float> outputs;
-  Matrix<float> text(agent.config.text_size, 1);
-  agent.encode_text(weights, missions, cache, text);
-  agent.forward(weights, frames, missions, text, cache, outputs);
-  std::printf("the logit of 'forward' is %g\n", static_cast<double>(outputs.logits(2, 0)));
-  return outputs.logits(2, 0) == 1 ? 0 : 1;
+  policy::NetworkPolicy policy(agent, weights);
+  policy::Observation seen;
+  seen.sentence = babyai::sentence_of("go to the red ball");
+  policy.observe(0, seen);
+  const auto decision = policy.decide(policy::Greedy{})[0];
+  std::printf("action %zu, probability %.2f\n", decision.action,
+              std::exp(static_cast<double>(decision.log_prob)));
+  return decision.as_action() == grid::Action::forward ? 0 : 1;
 }

@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "programs/tiny_run.hpp"
+#include "support/messages.hpp"
+
+/// The program as a whole: its commands, their names, how they fail.
+namespace wordgaze {
+namespace {
+
+struct Program : ::testing::Test {
+  Shell run;
+  Program() { write_tiny_config(run); }
+};
+
+TEST_F(Program, ACommandIsTheSameByEitherName) {
+  ASSERT_TRUE(succeeded(run("wordgaze train --config tiny.toml --out a")));
+  ASSERT_TRUE(succeeded(run("train --config tiny.toml --out b")));
+  const auto whole = run("wordgaze eval --checkpoint a/checkpoint.safetensors --episodes 5");
+  const auto link = run("eval --checkpoint b/checkpoint.safetensors --episodes 5");
+  ASSERT_TRUE(succeeded(whole));
+  EXPECT_EQ(whole.out, link.out);
+}
+
+TEST_F(Program, SaysItsVersionAndHelpInOneWay) {
+  const auto version = run("wordgaze --version");
+  ASSERT_TRUE(succeeded(version));
+  for (const std::string command : {"train", "eval", "trace", "bench"}) {
+    EXPECT_EQ(run(command + " --version").out, version.out) << command;
+    const auto help = run("wordgaze " + command + " --help");
+    EXPECT_TRUE(succeeded(help)) << command;
+    EXPECT_TRUE(contains(help.out, "--")) << command;
+  }
+  EXPECT_TRUE(contains(run("wordgaze --help").out, "levels"));
+}
+
+TEST_F(Program, BadUseExitsWithTwoAndFailureWithOne) {
+  for (const std::string bad :
+       {"wordgaze", "wordgaze dance", "wordgaze train", "train --out a --frames",
+        "train --config tiny.toml --out a --set ppo.clip=2000", "trace --replay t --env x",
+        "eval --checkpoint a --policy bot", "eval --policy bot", "bench --sim no-such-level",
+        "wordgaze levels NoSuchLevel"}) {
+    const auto result = run(bad);
+    EXPECT_EQ(result.status, 2) << bad << describe(result);
+    EXPECT_FALSE(result.err.empty()) << bad;
+  }
+  for (const std::string failing :
+       {"eval --checkpoint nothing", "train --config nothing.toml --out a"}) {
+    const auto result = run(failing);
+    EXPECT_EQ(result.status, 1) << failing << describe(result);
+    EXPECT_TRUE(contains(result.err, "nothing")) << failing;
+  }
+}
+
+TEST_F(Program, ListsItsLevels) {
+  const auto ids = run("wordgaze levels --ids");
+  ASSERT_TRUE(succeeded(ids));
+  EXPECT_EQ(std::count(ids.out.begin(), ids.out.end(), '\n'), 168);
+  const auto doors = run("wordgaze levels DoorKey");
+  ASSERT_TRUE(succeeded(doors));
+  EXPECT_TRUE(contains(doors.out, "MiniGrid-DoorKey-5x5-v0"));
+  EXPECT_TRUE(contains(doors.out, "use the key to open the door and then get to the goal"));
+  EXPECT_FALSE(contains(doors.out, "BabyAI-GoTo"));
+}
+
+TEST_F(Program, RecordsATrainedAgentAndReplaysIt) {
+  ASSERT_TRUE(succeeded(run("train --config tiny.toml --out a")));
+  const std::string record =
+      "trace --env Wordgaze-One-N8-K4-v0 --checkpoint a/checkpoint.safetensors --steps 40";
+  ASSERT_TRUE(succeeded(run(record + " --out t.jsonl")));
+  EXPECT_TRUE(contains(run.read("t.jsonl"), "agent, sampled"));
+  const auto replayed = run("trace --replay t.jsonl");
+  ASSERT_TRUE(succeeded(replayed));
+  EXPECT_TRUE(contains(replayed.out, "steps 160 mismatches 0"));
+  ASSERT_TRUE(succeeded(run(record + " --greedy --out g.jsonl")));
+  EXPECT_NE(run.read("t.jsonl"), run.read("g.jsonl"));
+}
+
+TEST_F(Program, EvaluatesTheBot) {
+  const auto bot = run("eval --policy bot --env BabyAI-GoToLocal-v0 --episodes 50 --json b.json");
+  ASSERT_TRUE(succeeded(bot));
+  EXPECT_TRUE(contains(bot.out, "100.0%"));
+  EXPECT_TRUE(contains(run.read("b.json"), "\"policy\": \"bot\""));
+}
+
+TEST_F(Program, TrainsInLevelsWhoseNumberIsNotOneOfObjects) {
+  for (const std::string id : {"MiniGrid-MultiRoom-N6-v0", "MiniGrid-LavaCrossingS9N1-v0"}) {
+    EXPECT_TRUE(succeeded(
+        run("train --config tiny.toml --out " + id + " --set probe_every=1 env=" + id)));
+  }
+}
+
+}  // namespace
+}  // namespace wordgaze
