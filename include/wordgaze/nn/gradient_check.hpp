@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/nn/parameters.hpp"
 
 /// Central differences against hand-written gradients. Public: whoever adds a layer needs it.

@@ -1,6 +1,8 @@
 #pragma once
 #include <concepts>
+#include <tuple>
 
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/nn/parameters.hpp"
 #include "wordgaze/nn/sequence.hpp"
 
