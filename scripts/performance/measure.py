@@ -12,8 +12,8 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 HERE = ROOT / "scripts/performance"
 DATA = ROOT / "docs/data/performance.json"
-SYSTEM_PYTHON = "/usr/bin/python3"  # Debian's, which has Debian's PyTorch
-PACKAGES = {"minigrid": "3.2.0", "envpool": "1.2.5", "matplotlib": "3.11.2"}
+SYSTEM_PYTHON = "/usr/bin/python3"  # Debian's, which has Debian's PyTorch and matplotlib
+PACKAGES = {"minigrid": "3.2.0", "envpool": "1.2.5"}
 
 
 class Failure(Exception):
@@ -36,8 +36,6 @@ def options(description, rounds, seconds):
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", default=ROOT / "build/release", type=pathlib.Path,
                         help="where Wordgaze is built (build/release)")
-    parser.add_argument("--venv", default=ROOT / "build/peers", type=pathlib.Path,
-                        help="virtual environment, made when missing (build/peers)")
     parser.add_argument("--rounds", default=rounds, type=at_least(int, 1), help=f"({rounds})")
     parser.add_argument("--seconds", default=seconds, type=at_least(float, 0.01),
                         help=f"of one measurement, at least ({seconds})")
@@ -154,14 +152,17 @@ def command_line():
     return " ".join([f"scripts/{pathlib.Path(sys.argv[0]).name}", *sys.argv[1:]])
 
 
-def save(section, content, python=None):
-    """Into docs/data/performance.json; then plot, given a Python that can, and write the page."""
+def set_up(*packages):
+    """Installs Debian's packages of these names where they are missing."""
+    print(capture([ROOT / "scripts/setup", *packages]), end="")
+
+
+def save(section, content):
+    """Into docs/data/performance.json; then write the page."""
     data = json.loads(DATA.read_text()) if DATA.exists() else {}
     data[section] = content
     DATA.parent.mkdir(exist_ok=True)
     sections = (f'"{key}": ' + json.dumps(value).replace("}, {", "},\n {")
                 for key, value in sorted(data.items()))
     DATA.write_text("{\n" + ",\n".join(sections) + "\n}\n")
-    if python is not None:
-        capture([python, HERE / "plot.py"])
     capture([sys.executable, HERE / "page.py"])

@@ -1,70 +1,84 @@
-"""Charts of lines with bands as SVG, by hand."""
-import html
+#!/usr/bin/env python3
+"""Draws the plots of docs/results.md from docs/data/results.json and prints their names. Needs
+matplotlib. Another folder than docs may be given."""
+import json
+import pathlib
+import sys
 
-COLORS = ["#1f5fa8", "#b5482a", "#3a8a4d", "#8057a5", "#b08a1e", "#4a9aa8", "#a8517e", "#777777",
-          "#2b2b2b", "#d98cb3", "#7f8f1f"]
-WIDTH, HEIGHT = 270, 200  # of a panel's axes
-LEFT, TOP, GAP, BOTTOM, LINE = 48, 26, 40, 42, 16
-LEGEND, LETTER = 330, 7  # widths of a legend's column, and of a letter at most
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "performance"))
 
+from drawing import pyplot, save
+from measure import ROOT
+from results_page import Results, of_policy
 
-def text(x, y, words, anchor="middle", more=""):
-    return f'<text x="{x:.0f}" y="{y:.0f}" text-anchor="{anchor}"{more}>{html.escape(words)}</text>'
-
-
-def path(points):
-    return " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
+PANEL = (3.2, 2.4)  # inches
 
 
-def panel(left, title, series, x_label, ticks):
-    """One pair of axes; series are (color, [[x, y, low, high]...]), y in 0-1."""
-    low, high = ticks[0][0], ticks[-1][0]
-
-    def x_of(x):
-        return left + (x - low) / ((high - low) or 1) * WIDTH
-
-    def y_of(y):
-        return TOP + (1 - y) * HEIGHT
-    parts = [text(left + WIDTH / 2, TOP - 9, title),
-             text(left + WIDTH / 2, TOP + HEIGHT + 34, x_label)]
-    for tenth in range(0, 11, 2):
-        y = y_of(tenth / 10)
-        parts += [f'<path class="grid" d="M{left} {y:.1f}h{WIDTH}"/>',
-                  text(left - 6, y + 4, f"{10 * tenth}", "end")]
-    parts += [text(x_of(x), TOP + HEIGHT + 17, label) for x, label in ticks]
-    for color, points in series:
-        band = [(x_of(x), y_of(top)) for x, _, _, top in points]
-        band += [(x_of(x), y_of(bottom)) for x, _, bottom, _ in reversed(points)]
-        parts += [f'<polygon points="{path(band)}" fill="{color}" fill-opacity="0.18"/>',
-                  f'<polyline points="{path((x_of(x), y_of(y)) for x, y, _, _ in points)}" '
-                  f'fill="none" stroke="{color}" stroke-width="1.6"/>']
-    return parts
+def lines_and_bands(axes, series):
+    """Series are (name, points [x, y, low, high]), y in 0-1."""
+    for name, points in series:
+        x, y, low, high = zip(*points)
+        line, = axes.plot(x, [100 * v for v in y], label=name, clip_on=False)
+        axes.fill_between(x, [100 * v for v in low], [100 * v for v in high], color=line.get_color(),
+                          alpha=0.15, linewidth=0)
+    axes.set_ylim(0, 100)
+    axes.margins(x=0)
 
 
-def chart(panels, names, x_label):
-    """panels: (title, [points of each name or None], ticks)."""
-    width = max(LEFT + len(panels) * (WIDTH + GAP), LEFT + 24 + LETTER * max(map(len, names)))
-    columns = max(1, (width - LEFT) // LEGEND)
-    rows = -(-len(names) // columns)
-    height = TOP + HEIGHT + BOTTOM + rows * LINE + 6
-    parts = []
-    for k, (title, series, ticks) in enumerate(panels):
-        drawn = [(COLORS[i % len(COLORS)], points) for i, points in enumerate(series) if points]
-        parts += panel(LEFT + k * (WIDTH + GAP), title, drawn, x_label, ticks)
-    parts.append(text(0, 0, "success, %", more=f' transform="translate(13 {TOP + HEIGHT / 2:.0f}) '
-                                               'rotate(-90)"'))
-    for i, name in enumerate(names):
-        x, y = LEFT + i % columns * LEGEND, TOP + HEIGHT + BOTTOM + i // columns * LINE + 8
-        parts += [f'<path d="M{x} {y - 4}h18" stroke="{COLORS[i % len(COLORS)]}" stroke-width="3"/>',
-                  text(x + 24, y, name, "start")]
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
-            f'viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="12">\n'
-            '<style>.grid{stroke:#ddd;fill:none}</style>\n'
-            f'<rect width="{width}" height="{height}" fill="#fff"/>\n' + "\n".join(parts) + "\n</svg>\n")
+def grid_chart(rows):
+    """Success by the number of objects, a panel a room."""
+    lines = {f"{row['about']}, {policy}": of_policy(row["evaluations"]["grid"], policy)
+             for row in rows if "grid" in row["evaluations"] for policy in ("sampled", "greedy")}
+    rooms = sorted({s["room"] for settings in lines.values() for s in settings})
+    if not rooms:
+        return None
+    figure, panels = pyplot.subplots(1, len(rooms), figsize=(PANEL[0] * len(rooms), PANEL[1]),
+                                     sharey=True, squeeze=False, constrained_layout=True)
+    for room, axes in zip(rooms, panels[0]):
+        series = [(name, [(s["objects"], s["success"]["mean"], *s["success"]["ci95"])
+                          for s in settings if s["room"] == room]) for name, settings in lines.items()]
+        lines_and_bands(axes, series)
+        axes.set(title=f"{room}x{room}", xlabel="objects", xticks=[p[0] for p in series[0][1]])
+    panels[0][0].set_ylabel("success, %")
+    figure.legend(*panels[0][0].get_legend_handles_labels(), loc="upper center",
+                  bbox_to_anchor=(0.5, 0), ncol=len(lines))
+    return figure
 
 
-def frame_ticks(frames):
-    """0, and a few round numbers of frames; runs end a little behind the last."""
-    million = frames / 1e6
-    step = next((s for s in (0.01, 0.05, 0.1, 0.5, 1, 2, 3, 5) if million / s <= 5.1), 10)
-    return [(1e6 * step * k, f"{step * k:g}M") for k in range(int(million / step + 0.95) + 1)]
+def learning_chart(rows):
+    """Success in training by frames."""
+    rows = [row for row in rows if row.get("curve")]
+    if not rows:
+        return None
+    figure, axes = pyplot.subplots(figsize=(1.6 * PANEL[0], 1.2 * PANEL[1]), constrained_layout=True)
+    lines_and_bands(axes, [((row["about"] or row["name"]).replace("`", ""),
+                            [(x / 1e6, *ys) for x, *ys in row["curve"][::3]]) for row in rows])
+    axes.set(xlim=(0, None), xlabel="million frames", ylabel="training success, %")
+    figure.legend(loc="center left", bbox_to_anchor=(1, 0.5))
+    return figure
+
+
+def charts(results):
+    ablations, task = results.part("ablation"), results.part("task")
+    return {
+        "grid": grid_chart(results.part("grounding")),
+        "grounding": learning_chart(results.part("grounding")),
+        "ablations": learning_chart([r for r in ablations if r["config"].startswith("ablations/")]),
+        "task": learning_chart([r for r in task if r["name"].startswith("structured")]),
+        "task-ablations": learning_chart([r for r in task
+                                          if not r["name"].startswith("structured-")]),
+        "babyai": learning_chart(results.part("babyai"))}
+
+
+def main(folder):
+    results = Results(json.loads((folder / "data/results.json").read_text()))
+    images = folder / "images/results"
+    for name, figure in charts(results).items():
+        if figure:
+            images.mkdir(parents=True, exist_ok=True)
+            save(figure, images / f"{name}.svg")
+            print(name)
+
+
+if __name__ == "__main__":
+    main(pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "docs")

@@ -10,8 +10,7 @@ import tomllib
 if __name__ == "__main__":
     sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "performance"))
 
-from curves import chart, frame_ticks
-from measure import ROOT
+from measure import ROOT, SYSTEM_PYTHON, capture
 from page import table
 
 HEAD = """# Results
@@ -124,7 +123,7 @@ def targets(results):
 
 
 def grid_tables(results):
-    """A table a row of the grid, and the plot's panels."""
+    """A table a row of the grid."""
     for row in results.part("grounding"):
         grid = row["evaluations"].get("grid")
         if not grid:
@@ -245,30 +244,9 @@ def transparency_tables(results):
                      "of silent words"], words)
 
 
-def grid_chart(results):
-    rows = [r for r in results.part("grounding") if "grid" in r["evaluations"]]
-    names = [f"{r['about']}, {policy}" for r in rows for policy in ("sampled", "greedy")]
-    settings = [of_policy(r["evaluations"]["grid"], p) for r in rows for p in ("sampled", "greedy")]
-    panels = []
-    for room in sorted({s["room"] for line in settings for s in line}):
-        series = [[[s["objects"], s["success"]["mean"], *s["success"]["ci95"]]
-                   for s in line if s["room"] == room] for line in settings]
-        panels.append((f"{room}x{room}", series, [(p[0], str(p[0])) for p in series[0]]))
-    return chart(panels, names, "objects") if panels else ""
-
-
 def held_out_kinds():
     config = tomllib.loads((ROOT / "configs/held-out.toml").read_text())
     return config["curriculum"]["held_out"]
-
-
-def learning_chart(rows):
-    rows = [r for r in rows if r.get("curve")]
-    if not rows:
-        return ""
-    ticks = frame_ticks(max(r["frames"] for r in rows))
-    return chart([("training success", [r["curve"][::2] for r in rows], ticks)],
-                 [(r["about"] or r["name"]).replace("`", "") for r in rows], "frames")
 
 
 def commands(results):
@@ -294,12 +272,11 @@ def unfinished(results):
 
 def write_page(folder):
     results = Results(json.loads((folder / "data/results.json").read_text()))
-    images, sections = folder / "images/results", [HEAD]
+    drawn = capture([SYSTEM_PYTHON, pathlib.Path(__file__).with_name("curves.py"), folder]).split()
+    sections = [HEAD]
 
-    def plot(name, drawing, title):
-        if drawing:
-            images.mkdir(parents=True, exist_ok=True)
-            (images / f"{name}.svg").write_text(drawing)
+    def plot(name, title):
+        if name in drawn:
             sections.append(f"![{title}](images/results/{name}.svg)")
 
     def section(title, *blocks):
@@ -324,25 +301,18 @@ def write_page(folder):
             "without it 90-96 % and 0.8-0.85 with four objects, falling to 55-70 % and 0.5-0.6 with "
             "twelve.",
             *grid_tables(results))
-    plot("grid", grid_chart(results), "Success by room and objects; bands: 95 % intervals")
-    plot("grounding", learning_chart(results.part("grounding")),
-         "Learning curves; bands: lowest and highest seed")
+    plot("grid", "Success by room and objects; bands: 95 % intervals")
+    plot("grounding", "Learning curves; bands: lowest and highest seed")
     section("Ablations of grounding", results.part("ablation") and
             "1.5 million frames, one setting changed in each row but the last.", ablation_table(results))
-    ablations = results.part("ablation")
-    plot("ablations", learning_chart([r for r in ablations if r["config"].startswith("ablations/")]),
-         "Learning curves of the ablations; bands: lowest and highest seed")
+    plot("ablations", "Learning curves of the ablations; bands: lowest and highest seed")
     section("Two clauses", results.part("task") and
             "10x10 with four objects, from the weights of the first phase with the same seed. Frames are "
             "those of this phase, until the success of training episodes is as high: the median of the "
             "seeds that reach it. The paper reports above 90 % with the module, within two million frames, "
             "and about 70 % without it.", task_table(results))
-    plot("task", learning_chart([r for r in results.part("task")
-                                 if r["name"].startswith("structured")]),
-         "Learning curves; bands: lowest and highest seed")
-    plot("task-ablations", learning_chart([r for r in results.part("task") if
-                                           not r["name"].startswith("structured-")]),
-         "Learning curves of the ablations; bands: lowest and highest seed")
+    plot("task", "Learning curves; bands: lowest and highest seed")
+    plot("task-ablations", "Learning curves of the ablations; bands: lowest and highest seed")
     section("Beyond: more clauses, larger rooms", beyond_table(results))
     section("Kinds of objects never named in training", results.part("kinds") and
             "Five of the eighteen kinds (" + held_out_kinds() + ") lie about in training, but no mission "
@@ -357,8 +327,7 @@ def write_page(folder):
             "when this page was made, so no figure of it stands here. What its authors' repository does say "
             "(mila-iqia/babyai, scripts/README.md): five hours of training for 97-99 % on GoToLocal, on "
             "hardware not named; minutes here are of one thread and include the evaluation.", babyai_table(results))
-    plot("babyai", learning_chart(results.part("babyai")),
-         "Learning curves of the levels; bands: lowest and highest seed")
+    plot("babyai", "Learning curves of the levels; bands: lowest and highest seed")
     section("Transparency", "[metrics.md](metrics.md) defines the figures; of decisions with a target in "
             "view, one cell for deletion and insertion." if any(
                 "gaze" in r["evaluations"] for r in results.rows) else "", *transparency_tables(results))

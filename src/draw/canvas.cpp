@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numbers>
 #include <sstream>
 #include <stdexcept>
 
@@ -51,8 +50,6 @@ Canvas::Canvas(int width, int height)
       context_(cairo_create(surface_.get())) {
   require_success(cairo_status(context_.get()));
   rectangle(0, 0, width, height, kWhite);
-  cairo_set_line_join(context_.get(), CAIRO_LINE_JOIN_ROUND);
-  cairo_set_line_cap(context_.get(), CAIRO_LINE_CAP_ROUND);
   // Without hints, text has the same shape wherever it stands.
   cairo_font_options_t* options = cairo_font_options_create();
   cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
@@ -65,19 +62,6 @@ Canvas::Canvas(int width, int height)
 void Canvas::rectangle(double x, double y, double width, double height, Rgb color) {
   this->color(color);
   cairo_rectangle(context_.get(), x, y, width, height);
-  cairo_fill(context_.get());
-}
-
-void Canvas::line(const std::vector<Point>& points, Rgb color, double thickness) {
-  this->color(color);
-  cairo_set_line_width(context_.get(), thickness);
-  path(points);
-  cairo_stroke(context_.get());
-}
-
-void Canvas::area(const std::vector<Point>& outline, Rgb color, double opacity) {
-  this->color(color, opacity);
-  path(outline);
   cairo_fill(context_.get());
 }
 
@@ -106,14 +90,6 @@ void Canvas::text(double x, double y, std::string_view text, Font font, Rgb colo
   cairo_show_text(context_.get(), std::string(text).c_str());
 }
 
-void Canvas::upward_text(double x, double y, std::string_view text, Font font, Rgb color) {
-  cairo_save(context_.get());
-  cairo_translate(context_.get(), x, y);
-  cairo_rotate(context_.get(), -std::numbers::pi / 2);
-  this->text(0, 0, text, font, color, Align::center);
-  cairo_restore(context_.get());
-}
-
 double Canvas::text_width(std::string_view text, Font font) {
   this->font(font);
   cairo_text_extents_t extents;
@@ -136,32 +112,19 @@ std::vector<std::string> Canvas::wrapped(std::string_view text, Font font, doubl
   return lines;
 }
 
-void Canvas::clip(double x, double y, double width, double height) {
-  cairo_rectangle(context_.get(), x, y, width, height);
-  cairo_clip(context_.get());
-}
-
-void Canvas::unclip() { cairo_reset_clip(context_.get()); }
-
 Image Canvas::finished() const {
   require_success(cairo_status(context_.get()));
   return image_of(surface_.get());
 }
 
-void Canvas::color(Rgb color, double opacity) {
-  cairo_set_source_rgba(context_.get(), color[0] / 255.0, color[1] / 255.0, color[2] / 255.0,
-                        opacity);
+void Canvas::color(Rgb color) {
+  cairo_set_source_rgb(context_.get(), color[0] / 255.0, color[1] / 255.0, color[2] / 255.0);
 }
 
 void Canvas::font(Font font) {
   cairo_select_font_face(context_.get(), "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
                          font.bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
   cairo_set_font_size(context_.get(), font.size);
-}
-
-void Canvas::path(const std::vector<Point>& points) {
-  cairo_new_path(context_.get());
-  for (const Point& point : points) cairo_line_to(context_.get(), point.x, point.y);
 }
 
 }  // namespace wordgaze::draw

@@ -23,39 +23,27 @@ struct Font {
   double size = 15;
   bool bold = false;
 };
-struct Point {
-  double x, y;
-};
 
 class Canvas {
  public:
   Canvas(int width, int height);
 
   void rectangle(double x, double y, double width, double height, Rgb color);
-  void line(const std::vector<Point>& points, Rgb color, double thickness);
-  void area(const std::vector<Point>& outline, Rgb color, double opacity);
   /// As large as fits a square of `side` pixels.
   void image(const Image& image, double x, double y, double side);
   /// `y` is the base line.
   void text(double x, double y, std::string_view text, Font font, Rgb color = kInk,
             Align align = Align::left);
-  /// Reads upward, centered on the point.
-  void upward_text(double x, double y, std::string_view text, Font font, Rgb color = kInk);
   double text_width(std::string_view text, Font font);
   /// The words of a text in lines that are no wider than `width`, if the words are not.
   std::vector<std::string> wrapped(std::string_view text, Font font, double width);
-
-  /// Until unclip(), only what lies in the rectangle is drawn.
-  void clip(double x, double y, double width, double height);
-  void unclip();
 
   /// The sheet as it is now. Throws std::runtime_error when drawing failed.
   Image finished() const;
 
  private:
-  void color(Rgb color, double opacity = 1);
+  void color(Rgb color);
   void font(Font font);
-  void path(const std::vector<Point>& points);
 
   struct Destroy {
     void operator()(cairo_surface_t* s) const { cairo_surface_destroy(s); }

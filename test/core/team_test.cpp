@@ -2,8 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace wordgaze {
 namespace {
@@ -38,9 +39,22 @@ TEST(Team, RethrowsWhatAWorkerThrewAndGoesOn) {
     }),
                  std::runtime_error);
   }
-  int done = 0;
-  team.run([&](int w) { done += w == 0; });
-  EXPECT_EQ(done, 1);
+  std::vector<int> runs(2);
+  team.run([&](int w) { ++runs[static_cast<std::size_t>(w)]; });
+  EXPECT_EQ(runs, (std::vector<int>{1, 1}));
+}
+
+TEST(Team, RethrowsTheFirstOfSeveralExceptionsAndForgetsTheOthers) {
+  Team team(3);
+  try {
+    team.run([](int w) {
+      if (w > 0) throw std::runtime_error(std::to_string(w));
+    });
+    ADD_FAILURE() << "nothing was thrown";
+  } catch (const std::runtime_error& error) {
+    EXPECT_STREQ(error.what(), "1");
+  }
+  EXPECT_NO_THROW(team.run([](int) {}));
 }
 
 }  // namespace

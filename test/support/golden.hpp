@@ -43,12 +43,14 @@ inline Matrix<double> column(const Json& json) {
   return matrix(json, static_cast<Index>(json.size()), 1);
 }
 
-/// Largest |ours - theirs| / max(|theirs|, 1e-3): relative, but for entries next to zero.
+/// Largest |ours - theirs| / max(|theirs|, 1e-3): relative, but for entries next to zero. NaN,
+/// which is below no tolerance, where an entry is not finite on either side.
 inline double relative_error(const Eigen::Ref<const Matrix<double>>& ours,
                              const Eigen::Ref<const Matrix<double>>& theirs) {
   require(ours.rows() == theirs.rows() && ours.cols() == theirs.cols(),
           "{}x{} numbers against {}x{}", ours.rows(), ours.cols(), theirs.rows(), theirs.cols());
-  return ((ours - theirs).array().abs() / theirs.array().abs().max(1e-3)).maxCoeff();
+  return ((ours - theirs).array().abs() / theirs.array().abs().max(1e-3))
+      .maxCoeff<Eigen::PropagateNaN>();
 }
 
 }  // namespace wordgaze::test

@@ -1,5 +1,6 @@
 #pragma once
 #include <stdexcept>
+#include <utility>
 
 #include "wordgaze/core/formatted.hpp"
 

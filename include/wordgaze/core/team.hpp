@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <exception>
 #include <thread>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -29,7 +30,7 @@ class Team {
   int size() const { return static_cast<int>(errors_.size()); }
 
   /// Calls job(worker) once for every worker, at the same time, and returns when all are done.
-  /// Rethrows the exception of the first worker that threw.
+  /// Rethrows the exception of the first worker that threw, and drops those of the others.
   template <class Job>
   void run(Job&& job) {
     job_ = &job;
@@ -41,9 +42,11 @@ class Team {
          left = left_.load(std::memory_order_acquire)) {
       wait_while(left_, left);
     }
+    std::exception_ptr first;
     for (auto& error : errors_) {
-      if (error) std::rethrow_exception(std::exchange(error, nullptr));
+      if (auto thrown = std::exchange(error, nullptr); !first) first = std::move(thrown);
     }
+    if (first) std::rethrow_exception(std::move(first));
   }
 
   /// The part [first, second) of n items that worker k of `size` takes; sizes differ by at most

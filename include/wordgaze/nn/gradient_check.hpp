@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/nn/parameters.hpp"
 
 /// Central differences against hand-written gradients. Public: whoever adds a layer needs it.
@@ -10,7 +11,8 @@ namespace wordgaze::nn {
 
 struct GradientError {
   /// Largest |numeric - analytic| / max(|numeric|, |analytic|, 1e-3): relative, but for entries so
-  /// small that the difference quotient itself is mostly rounding.
+  /// small that the difference quotient itself is mostly rounding. NaN, whatever came after it,
+  /// where either is not finite.
   double worst = 0;
   std::string where;  ///< "memory.hidden_weight[17]"
 };
@@ -31,7 +33,8 @@ void check_leaf(const std::string& name, Leaf& leaf, const Gradient& gradient, L
     const double numeric = (above - below) / (2 * step), analytic = gradient.data()[i];
     const double difference =
         std::abs(numeric - analytic) / std::max({1e-3, std::abs(numeric), std::abs(analytic)});
-    if (!(difference <= error.worst)) {  // a NaN counts as worst
+    // The first NaN is the worst for good: no number compares with it.
+    if (!std::isnan(error.worst) && !(difference <= error.worst)) {
       error.worst = difference;
       error.where = name + "[" + std::to_string(i) + "]";
     }

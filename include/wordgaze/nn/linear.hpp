@@ -2,6 +2,7 @@
 #include <concepts>
 #include <tuple>
 
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/nn/parameters.hpp"
 
 namespace wordgaze::nn {
