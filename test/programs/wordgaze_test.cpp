@@ -86,8 +86,8 @@ TEST_F(Program, EvaluatesTheBot) {
 
 TEST_F(Program, TrainsInLevelsWhoseNumberIsNotOneOfObjects) {
   for (const std::string id : {"MiniGrid-MultiRoom-N6-v0", "MiniGrid-LavaCrossingS9N1-v0"}) {
-    EXPECT_TRUE(succeeded(
-        run("train --config tiny.toml --out " + id + " --set probe_every=1 env=" + id)));
+    EXPECT_TRUE(
+        succeeded(run("train --config tiny.toml --out " + id + " --set probe_every=1 env=" + id)));
   }
 }
 

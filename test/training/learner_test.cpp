@@ -103,13 +103,13 @@ double plain_loss(const model::Design& design, const Twin::Params& params, const
       x.cells.col(t) = r.cells.col(from);
       x.keep(0, t) = static_cast<double>(r.keep(0, from));
       x.completion.col(t) = r.completion.col(from).cast<double>();
-      x.mission_of[static_cast<std::size_t>(t)] =
-          missions.index_of(r.mission(r.lane(s), from));
+      x.mission_of[static_cast<std::size_t>(t)] = missions.index_of(r.mission(r.lane(s), from));
     }
     const auto out = model::ReferenceAgent<double>{design, params}.run(x, missions);
     for (Index t = 0; t < r.chunk; ++t) {
       const auto n = static_cast<std::size_t>(r.column(s, t));
-      const Vector<double> p = out.logits.col(t).array().exp() / out.logits.col(t).array().exp().sum();
+      const Vector<double> p =
+          out.logits.col(t).array().exp() / out.logits.col(t).array().exp().sum();
       const double ratio = p(r.action[n]) / std::exp(static_cast<double>(r.log_prob[n]));
       const double a = (static_cast<double>(r.advantage[n]) - mean) / deviation;
       const double target = static_cast<double>(r.advantage[n]) + static_cast<double>(r.value[n]);

@@ -5,6 +5,7 @@
 
 #include "wordgaze/babyai/level.hpp"
 #include "wordgaze/babyai/task.hpp"
+#include "wordgaze/core/rng.hpp"
 #include "wordgaze/grid/room_grid.hpp"
 
 namespace wordgaze::babyai {

@@ -1,5 +1,8 @@
 #pragma once
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string_view>
 
 #include "wordgaze/core/rng.hpp"

@@ -1,4 +1,7 @@
 #pragma once
+#include <array>
+#include <span>
+
 #include "wordgaze/evaluation/mean.hpp"
 #include "wordgaze/evaluation/roles.hpp"
 

@@ -1,4 +1,8 @@
 #pragma once
+#include <cstdint>
+#include <span>
+
+#include "wordgaze/core/rng.hpp"
 #include "wordgaze/evaluation/faithfulness.hpp"
 #include "wordgaze/evaluation/mask_quality.hpp"
 #include "wordgaze/evaluation/mass.hpp"

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "wordgaze/core/rng.hpp"
 #include "wordgaze/grid/builder.hpp"
 
 namespace wordgaze::grid {

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <span>
 #include <stdexcept>
+#include <string>
 
 #include "wordgaze/episode_begin_t.hpp"
 #include "wordgaze/episode_end_t.hpp"

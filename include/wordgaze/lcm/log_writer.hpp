@@ -1,6 +1,9 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string_view>
+#include <vector>
 
 #include "wordgaze/lcm/message_observer.hpp"
 

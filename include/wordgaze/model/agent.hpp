@@ -1,12 +1,17 @@
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <concepts>
+#include <cstddef>
+#include <numbers>
 #include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "wordgaze/core/rng.hpp"
 #include "wordgaze/core/team.hpp"
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/model/design.hpp"
 #include "wordgaze/model/frames.hpp"
 #include "wordgaze/model/head.hpp"
@@ -17,6 +22,7 @@
 #include "wordgaze/model/text_visual_attention.hpp"
 #include "wordgaze/model/vision.hpp"
 #include "wordgaze/nn/lstm.hpp"
+#include "wordgaze/nn/parameters.hpp"
 
 namespace wordgaze::model {
 

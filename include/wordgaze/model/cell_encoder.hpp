@@ -3,6 +3,8 @@
 #include <concepts>
 #include <tuple>
 
+#include "wordgaze/core/rng.hpp"
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/model/design.hpp"
 #include "wordgaze/nn/initialize.hpp"
 #include "wordgaze/nn/parameters.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <string_view>
+#include <tuple>
 
 #include "wordgaze/core/require.hpp"
 #include "wordgaze/core/setting.hpp"

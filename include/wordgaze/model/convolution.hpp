@@ -2,6 +2,9 @@
 #include <concepts>
 #include <tuple>
 
+#include <Eigen/Core>
+
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/model/view_map.hpp"
 #include "wordgaze/nn/parameters.hpp"
 

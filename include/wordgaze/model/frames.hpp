@@ -1,7 +1,9 @@
 #pragma once
 #include <concepts>
+#include <cstddef>
 #include <vector>
 
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/model/cell_alphabet.hpp"
 #include "wordgaze/model/config.hpp"
 #include "wordgaze/nn/lstm.hpp"

@@ -2,7 +2,9 @@
 #include <concepts>
 #include <tuple>
 
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/nn/linear.hpp"
+#include "wordgaze/nn/parameters.hpp"
 
 namespace wordgaze::model {
 

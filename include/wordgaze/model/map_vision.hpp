@@ -2,7 +2,9 @@
 #include <concepts>
 #include <tuple>
 
+#include "wordgaze/core/rng.hpp"
 #include "wordgaze/core/team.hpp"
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/model/design.hpp"
 #include "wordgaze/model/view_map.hpp"
 #include "wordgaze/nn/parameters.hpp"

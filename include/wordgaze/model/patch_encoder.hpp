@@ -1,11 +1,15 @@
 #pragma once
 #include <array>
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <tuple>
 
+#include "wordgaze/core/rng.hpp"
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/model/cell_encoder.hpp"
 #include "wordgaze/model/convolution.hpp"
+#include "wordgaze/nn/parameters.hpp"
 
 namespace wordgaze::model {
 

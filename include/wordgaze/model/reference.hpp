@@ -3,6 +3,7 @@
 #include <concepts>
 #include <cstddef>
 
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/model/agent.hpp"
 
 namespace wordgaze::model {

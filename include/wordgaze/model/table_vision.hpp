@@ -2,8 +2,11 @@
 #include <concepts>
 #include <tuple>
 
+#include "wordgaze/core/rng.hpp"
 #include "wordgaze/core/team.hpp"
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/model/cell_encoder.hpp"
+#include "wordgaze/nn/parameters.hpp"
 
 namespace wordgaze::model {
 

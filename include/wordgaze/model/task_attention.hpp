@@ -1,12 +1,17 @@
 #pragma once
 #include <concepts>
+#include <cstddef>
+#include <numbers>
 #include <tuple>
 
 #include "wordgaze/core/require.hpp"
+#include "wordgaze/core/rng.hpp"
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/model/frames.hpp"
 #include "wordgaze/model/missions.hpp"
 #include "wordgaze/nn/initialize.hpp"
 #include "wordgaze/nn/linear.hpp"
+#include "wordgaze/nn/parameters.hpp"
 
 namespace wordgaze::model {
 

@@ -1,7 +1,9 @@
 #pragma once
 #include <concepts>
+#include <cstddef>
 
 #include "wordgaze/babyai/vocabulary.hpp"
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/model/missions.hpp"
 #include "wordgaze/nn/gru.hpp"
 

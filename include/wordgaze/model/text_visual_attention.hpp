@@ -1,10 +1,15 @@
 #pragma once
 #include <cmath>
 #include <concepts>
+#include <cstddef>
 #include <stdexcept>
 #include <tuple>
 #include <type_traits>
 
+#include <Eigen/Core>
+
+#include "wordgaze/core/rng.hpp"
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/model/frames.hpp"
 #include "wordgaze/model/missions.hpp"
 #include "wordgaze/nn/initialize.hpp"

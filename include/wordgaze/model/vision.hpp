@@ -3,9 +3,12 @@
 #include <tuple>
 #include <utility>
 
+#include "wordgaze/core/rng.hpp"
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/model/map_vision.hpp"
 #include "wordgaze/model/patch_encoder.hpp"
 #include "wordgaze/model/table_vision.hpp"
+#include "wordgaze/nn/parameters.hpp"
 
 /// Vision: the block that encodes the view, compares it with words, and hands what attention leaves
 /// of it to the memory. Two types: TableVision and MapVision; and ConfiguredVision, which is the

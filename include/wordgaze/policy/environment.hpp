@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "wordgaze/core/rng.hpp"
 #include "wordgaze/env/environment.hpp"
 #include "wordgaze/env/policy.hpp"
 #include "wordgaze/policy/network_policy.hpp"

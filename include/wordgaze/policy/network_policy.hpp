@@ -1,6 +1,10 @@
 #pragma once
+#include <cmath>
+#include <cstddef>
 #include <memory>
+#include <span>
 
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/model/agent.hpp"
 #include "wordgaze/policy/policy.hpp"
 #include "wordgaze/policy/trained_agent.hpp"

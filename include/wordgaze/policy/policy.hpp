@@ -5,9 +5,13 @@
 #include <cstdint>
 #include <span>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "wordgaze/core/require.hpp"
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/model/design.hpp"
 #include "wordgaze/model/frames.hpp"
 #include "wordgaze/model/outputs.hpp"

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/model/frames.hpp"
 #include "wordgaze/model/missions.hpp"
 #include "wordgaze/training/rollout.hpp"

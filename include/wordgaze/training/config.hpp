@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <tuple>
 
 #include "wordgaze/core/setting.hpp"
 #include "wordgaze/model/config.hpp"

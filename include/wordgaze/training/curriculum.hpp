@@ -1,8 +1,10 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "wordgaze/core/rng.hpp"
 #include "wordgaze/env/environment.hpp"
 #include "wordgaze/evaluation/episode.hpp"
 #include "wordgaze/training/config.hpp"

@@ -1,6 +1,9 @@
 #pragma once
+#include <cstddef>
+#include <cstdint>
 #include <span>
 
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/nn/sequence.hpp"
 
 namespace wordgaze::training {

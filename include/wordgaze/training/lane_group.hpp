@@ -3,6 +3,8 @@
 #include <memory>
 #include <vector>
 
+#include "wordgaze/core/rng.hpp"
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/evaluation/episode.hpp"
 #include "wordgaze/evaluation/pointing.hpp"
 #include "wordgaze/training/curriculum.hpp"

@@ -12,6 +12,7 @@
 
 #include "wordgaze/core/rng.hpp"
 #include "wordgaze/core/team.hpp"
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/model/agent.hpp"
 #include "wordgaze/optim/adam.hpp"
 #include "wordgaze/optim/clip.hpp"

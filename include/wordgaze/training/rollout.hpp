@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "wordgaze/babyai/sentence.hpp"
+#include "wordgaze/core/types.hpp"
 #include "wordgaze/model/cell_alphabet.hpp"
 #include "wordgaze/model/config.hpp"
 #include "wordgaze/nn/sequence.hpp"

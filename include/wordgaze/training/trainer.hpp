@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <limits>
@@ -11,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "wordgaze/core/require.hpp"
+#include "wordgaze/core/rng.hpp"
 #include "wordgaze/evaluation/evaluator.hpp"
 #include "wordgaze/optim/schedule.hpp"
 #include "wordgaze/training/gae.hpp"
