@@ -47,10 +47,6 @@ class CheckIncludes(unittest.TestCase):
         self.assertEqual(self.check('#include "a.hpp"\n' + use, "a.cpp"), ["2: std::vector: vector"])
         self.assertEqual(len(self.check('#include "a.hpp"\n' + use, "b.cpp")), 2)
 
-    def test_leaves_out_modules_on_request(self):
-        self.assertEqual(self.check("std::string a;\n", "a.hpp", "--not-yet", "other,module"), [])
-        self.assertEqual(len(self.check("std::string a;\n", "a.hpp", "--not-yet", "other")), 1)
-
 
 if __name__ == "__main__":
     unittest.main()
