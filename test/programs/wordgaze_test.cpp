@@ -56,7 +56,7 @@ TEST_F(Program, BadUseExitsWithTwoAndFailureWithOne) {
 TEST_F(Program, ListsItsLevels) {
   const auto ids = run("wordgaze levels --ids");
   ASSERT_TRUE(succeeded(ids));
-  EXPECT_EQ(std::count(ids.out.begin(), ids.out.end(), '\n'), 168);
+  EXPECT_EQ(std::count(ids.out.begin(), ids.out.end(), '\n'), 172);
   const auto doors = run("wordgaze levels DoorKey");
   ASSERT_TRUE(succeeded(doors));
   EXPECT_TRUE(contains(doors.out, "MiniGrid-DoorKey-5x5-v0"));

@@ -82,7 +82,8 @@ struct ReferenceAgent {
                    const babyai::Sentence& mission) const {
     const Config& c = design.config;
     Attention a;
-    if (!c.attention) return {.scale = Vector<S>::Ones(grid::kViewCells)};
+    a.scale.setOnes(grid::kViewCells);
+    if (!c.attention) return a;
     a.maps.resize(mission.length, grid::kViewCells);
     Vector<S> entropy(mission.length);
     for (int i = 0; i < mission.length; ++i) {
