@@ -49,8 +49,7 @@ struct PlaceEncoder : model::PlainMapEncoder<S> {
 using OwnAgent = model::Agent<float, model::MapVision<float, PlaceEncoder>>;
 
 int main() {
-  training::TrainConfig config;
-  config.env = "Wordgaze-One-N5-K2-auto-v0";
+  training::TrainConfig config{.env = "Wordgaze-One-N5-K2-auto-v0"};
   training::BasicTrainer<OwnAgent> trainer(config);
   const Matrix<float> before = trainer.params().vision.weight;
   trainer.update();

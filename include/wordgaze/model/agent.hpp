@@ -172,15 +172,18 @@ void Agent<S, V, A>::forward(const Weights& w, const Frames<S>& x, const Mission
                              In<S> text, Cache& k, Outputs<S>& y) const {
   const auto& [p, t] = w;
   fit(x.shape, missions.longest, k, y);
-  V::forward(*this, p.vision, t.vision, x.cells, k.vision);  // O~
-  if (config.attention) attend(w, x, missions, k, y);        // s(M)
+  V::forward(*this, p.vision, t.vision, x.cells, k.vision);  // (V): O~
+  if (config.attention) attend(w, x, missions, k, y);        // (A1)-(A6), (T1)-(T3): s(M)
+  // (F1), (F2): W_x (O~ * s(M))
   V::read(*this, t.vision, p.memory.input_weight, x.cells, scale(k), k.vision, k.product);
   if (config.completion_input) k.product.noalias() += p.completion * x.completion;
+  // (M1)-(M4): h, and under it u, the text of the mission
   auto h = k.features.topRows(config.memory_size);
   Memory::forward(p.memory, x.shape, k.product, x.keep, x.start, k.memory, h);
   for (Index n = 0; n < x.shape.columns(); ++n) {
     k.features.col(n).tail(config.text_size) = text.col(x.mission(n));
   }
+  // (H): policy and value
   Head<S>::forward(p.actor, k.features, k.actor, y.logits);
   Head<S>::forward(p.critic, k.features, k.critic, y.values);
 }
@@ -189,16 +192,17 @@ template <std::floating_point S, class V, class A>
 void Agent<S, V, A>::attend(const Weights& w, const Frames<S>& x, const Missions& missions,
                             Cache& k, Outputs<S>& y) const {
   const auto& [p, t] = w;
+  // (A1)-(A4): A, w
   V::with_scores(*this, t.vision, t.attention.probes, x.cells, k.vision,
                  [&](const auto& counts, auto&& score_of) {
                    A::forward_words(config, counts, score_of, x, missions, k.attention);
                  });
-  if (config.task_attention) {
+  if (config.task_attention) {  // (T1)-(T3): alpha
     Task::forward(config, p.task, p.words, k.attention.weights, x, missions, k.task, y.mask);
     const Index words = std::min(k.alpha.rows(), y.mask.rows());
     k.alpha.topRows(words) = y.mask.topRows(words);
   }
-  A::forward_gaze(config, x, missions, k.alpha, k.attention);
+  A::forward_gaze(config, x, missions, k.alpha, k.attention);  // (A5), (A6): M, s(M)
 }
 
 template <std::floating_point S, class V, class A>

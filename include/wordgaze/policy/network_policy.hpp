@@ -133,3 +133,7 @@ class NetworkPolicy final : public Policy {
 };
 
 }  // namespace wordgaze::policy
+
+#if WORDGAZE_COMPILED  // set by wordgaze::policy, whose library holds it
+extern template class wordgaze::policy::NetworkPolicy<wordgaze::policy::Agent>;
+#endif
