@@ -2,12 +2,19 @@
 include(CMakePackageConfigHelpers)
 set(wordgaze_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/wordgaze)
 
-install(TARGETS wordgaze_core wordgaze_env wordgaze_trace wordgaze_rl wordgaze_io wordgaze_draw
-        EXPORT wordgazeTargets)
-install(EXPORT wordgazeTargets NAMESPACE wordgaze:: DESTINATION ${wordgaze_package_dir})
+# A file of targets for each component, so that a user needs what the components in use need: the
+# simulator, env, needs Eigen alone.
+function(wordgaze_install component)
+  install(TARGETS ${ARGN} EXPORT wordgaze_${component}Targets)
+  install(EXPORT wordgaze_${component}Targets NAMESPACE wordgaze:: DESTINATION ${wordgaze_package_dir})
+endfunction()
+
+wordgaze_install(env wordgaze_core wordgaze_env)
+foreach(component IN ITEMS trace rl io draw)
+  wordgaze_install(${component} wordgaze_${component})
+endforeach()
 if(WORDGAZE_WITH_LCM)
-  install(TARGETS wordgaze_lcm wordgaze_lcmtypes EXPORT wordgazeLcmTargets)
-  install(EXPORT wordgazeLcmTargets NAMESPACE wordgaze:: DESTINATION ${wordgaze_package_dir})
+  wordgaze_install(lcm wordgaze_lcm wordgaze_lcmtypes)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/lcmtypes/" DESTINATION ${CMAKE_INSTALL_DATADIR}/wordgaze/lcmtypes)
 endif()
 
