@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "wordgaze/babyai/generators.hpp"
 #include "wordgaze/babyai/stages.hpp"
 

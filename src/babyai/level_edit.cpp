@@ -1,6 +1,8 @@
 #include "wordgaze/babyai/level_edit.hpp"
 
 #include <algorithm>
+#include <type_traits>
+#include <variant>
 
 #include "edited_id.hpp"
 #include "needs.hpp"

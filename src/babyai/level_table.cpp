@@ -1,3 +1,5 @@
+#include <vector>
+
 #include "wordgaze/babyai/generators.hpp"
 #include "wordgaze/babyai/level.hpp"
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "wordgaze/babyai/generators.hpp"
 #include "wordgaze/babyai/minigrid_stages.hpp"
 #include "wordgaze/babyai/wording.hpp"

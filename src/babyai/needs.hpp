@@ -1,6 +1,8 @@
 #pragma once
 #include <cstddef>
 #include <limits>
+#include <type_traits>
+#include <variant>
 
 #include "wordgaze/babyai/level.hpp"
 #include "wordgaze/grid/room_grid.hpp"

@@ -1,5 +1,6 @@
 #include "wordgaze/babyai/parser.hpp"
 
+#include <algorithm>
 #include <initializer_list>
 #include <stdexcept>
 #include <string>

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include "wordgaze/babyai/generators.hpp"
 
 namespace wordgaze::babyai::generators {

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "wordgaze/babyai/generators.hpp"
 #include "wordgaze/babyai/stages.hpp"
 

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <array>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "needs.hpp"
 #include "wordgaze/core/require.hpp"

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <variant>
 
 #include "planner.hpp"

@@ -2,6 +2,7 @@
 #include <cstring>
 #include <stdexcept>
 #include <type_traits>
+#include <utility>
 
 #include "wordgaze/core/formatted.hpp"
 #include "wordgaze/env/environment.hpp"

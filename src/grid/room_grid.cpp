@@ -1,5 +1,6 @@
 #include "wordgaze/grid/room_grid.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 

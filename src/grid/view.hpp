@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 #include "wordgaze/grid/observation.hpp"

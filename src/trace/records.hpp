@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+
 #include <nlohmann/json.hpp>
 
 #include "wordgaze/env/environment.hpp"

@@ -6,6 +6,7 @@
 #include <istream>
 #include <optional>
 #include <set>
+#include <stdexcept>
 
 #include "records.hpp"
 #include "wordgaze/babyai/level.hpp"

@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+
 #include "wordgaze/babyai/instruction.hpp"
 #include "wordgaze/grid/world.hpp"
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <string_view>
+
 #include "wordgaze/babyai/layout.hpp"
 
 /// Stages that MiniGrid's own levels share.

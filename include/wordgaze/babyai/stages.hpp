@@ -1,4 +1,7 @@
 #pragma once
+#include <array>
+#include <optional>
+
 #include "wordgaze/babyai/layout.hpp"
 
 /// Stages that several generators share.

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "wordgaze/bot/bot.hpp"
 #include "wordgaze/env/policy.hpp"

@@ -1,7 +1,9 @@
 #pragma once
+#include <cstddef>
 #include <limits>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 
 /// Configuration as open data: an aggregate lists its settings once, in `settings()`; the reader,
 /// the writer, `--set key=value` and the documentation all walk that list.
