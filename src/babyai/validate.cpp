@@ -23,9 +23,7 @@ class Checker {
     require(level_.generate != nullptr, "level '{}' has no generator", level_.id);
     check_rooms();
     check_rules();
-    require(needs_.kind == kAnyKind || needs_.kind == level_.parameters.index(),
-            "level '{}': its generator wants {}, its parameters are {}", level_.id,
-            kind_name(needs_.kind), kind_name(level_.parameters.index()));
+    check_kind();
     check_capacity();
     std::visit([&](const auto& parameters) { check(parameters); }, level_.parameters);
   }
@@ -41,6 +39,13 @@ class Checker {
   void within(std::string_view field, int value, int low, int high) const {
     require(value >= low && value <= high, "level '{}': {} = {}; expected {}", level_.id, field,
             value, low == high ? std::to_string(low) : formatted("{} to {}", low, high));
+  }
+
+  void check_kind() const {
+    if (needs_.kind == kAnyKind) return;
+    require(needs_.kind == level_.parameters.index(),
+            "level '{}': its generator wants {}, its parameters are {}", level_.id,
+            kind_name(needs_.kind), kind_name(level_.parameters.index()));
   }
 
   void check_rooms() const {
