@@ -154,7 +154,8 @@ double Trainer::probe() const {
   constexpr int kObjects = 12, kLanes = 64, kSteps = 16;
   const int inside = level_.room_size - 2;
   const bool fits = inside * inside >= 3 * kObjects && babyai::max_objects(level_) >= kObjects;
-  if (!config_.model.attention || babyai::objects(level_).value_or(0) == 0 || !fits) return kNothing;
+  if (!config_.model.attention || babyai::objects(level_).value_or(0) == 0 || !fits)
+    return kNothing;
   const babyai::LevelSpec crowded = babyai::with_objects(level_, kObjects);
   return probe_gaze(agent_, learner_.params(), learner_.tables(), crowded, kLanes, kSteps,
                     (std::uint64_t{1} << 61) + static_cast<std::uint64_t>(updates_))
