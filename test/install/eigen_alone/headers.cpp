@@ -1,4 +1,5 @@
 // nn, model and policy from headers alone: nothing of the library is linked.
+#include <cmath>
 #include <cstdio>
 
 #include <wordgaze/policy/network_policy.hpp>
