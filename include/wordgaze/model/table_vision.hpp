@@ -2,6 +2,7 @@
 #include <concepts>
 #include <tuple>
 
+#include "wordgaze/babyai/vocabulary.hpp"
 #include "wordgaze/core/rng.hpp"
 #include "wordgaze/core/team.hpp"
 #include "wordgaze/core/types.hpp"
