@@ -27,7 +27,14 @@ inline Json to_json(const evaluation::Mass& mass) {
     json[std::string(roles[r])] = {{"share", mass.share[r].value()},
                                    {"even", mass.even[r].value()}};
   }
+  json["nowhere"] = {{"share", mass.nowhere.value()}, {"even", 0.0}};
   return json;
+}
+
+inline Json to_json(const evaluation::Glow& glow) {
+  return {{"brightest", glow.brightest.value()},
+          {"over_half", glow.over_half.value()},
+          {"count", glow.brightest.count}};
 }
 
 inline Json to_json(const evaluation::Faithfulness& faithfulness) {
@@ -61,6 +68,9 @@ inline Json to_json(const evaluation::Transparency& t) {
   if (t.has_gaze()) {
     json["gaze"] = to_json(t.gaze());
     json["gaze"]["filter_in_view"] = to_json(t.filter());
+    json["gaze"]["spotlight_in_view"] = to_json(t.spotlight());
+    json["gaze"]["glow_out_of_view"] = to_json(t.glow());
+    json["gaze"]["spotlight_glow_out_of_view"] = to_json(t.spotlight_glow());
   }
   json["gradient"] = to_json(t.gradient());
   json["gradient_times_input"] = to_json(t.gradient_times_input());
@@ -88,13 +98,18 @@ inline Json to_json(const evaluation::Transparency& t) {
   return json;
 }
 
-inline void print(std::string_view name, const evaluation::Mass& mass) {
-  fmt::print("  {:<22} mass with a target in view:", name);
+inline void print(std::string_view name, const evaluation::Mass& mass, bool in_view = true) {
+  fmt::print("  {:<22} mass with {} target in view:", name, in_view ? "a" : "no");
   const auto roles = names(evaluation::Role{});
   for (std::size_t r = 0; r < roles.size(); ++r) {
     fmt::print(" {} {:.3f}", roles[r], mass.share[r].value());
   }
-  fmt::print("\n");
+  fmt::print(" nowhere {:.3f}\n", mass.nowhere.value());
+}
+
+inline void print(std::string_view name, const evaluation::Glow& glow) {
+  fmt::print("  {:<22} brightest object with no target in view: {:.3f}, above half in {:.4f}\n",
+             name, glow.brightest.value(), glow.over_half.value());
 }
 
 inline void print(std::string_view name, const evaluation::MapReport& report) {
@@ -103,6 +118,7 @@ inline void print(std::string_view name, const evaluation::MapReport& report) {
       "  {:<22} points at a target {:.3f} (chance {:.3f}), at a named object {:.3f} ({:.3f})\n",
       name, p.target.value(), p.target_chance.value(), p.named.value(), p.named_chance.value());
   print("", report.mass_in_view);
+  print("", report.mass_out_of_view, false);
   const auto& f = report.faithfulness_in_view;
   for (const auto test : {Change::Test::deletion, Change::Test::insertion}) {
     for (const int k : evaluation::kDeletedCells) {
@@ -119,7 +135,10 @@ inline void print(std::string_view name, const evaluation::MapReport& report) {
 inline void print(const evaluation::Transparency& t) {
   if (t.has_gaze()) {
     print("gaze M", t.gaze());
+    print("", t.glow());
     print("filter s(M)", t.filter());
+    print("spotlight s(M) - f", t.spotlight());
+    print("", t.spotlight_glow());
   }
   print("gradient", t.gradient());
   print("gradient times input", t.gradient_times_input());

@@ -29,25 +29,39 @@ void Transparency::on_decision(const DecisionContext& context) {
   const auto& image = context.observation.image;
   const Roles roles = roles_of(image, environment.progress());
   const auto saliency = context.policy.saliency(context.lane, context.decision.action);
-  add_map(context, {saliency.gradient.data(), grid::kViewCells}, roles, gradient_);
-  add_map(context, {saliency.product.data(), grid::kViewCells}, roles, product_);
+  add_map(context, {saliency.gradient.data(), grid::kViewCells}, 0, roles, gradient_);
+  add_map(context, {saliency.product.data(), grid::kViewCells}, 0, roles, product_);
   if (!has_gaze()) return;
   context.policy.attention(context.lane, record_);
-  add_map(context, record_.gaze, roles, gaze_);
-  if (target_in_view(roles)) filter_.add(record_.filter, roles);
+  add_map(context, record_.gaze, static_cast<double>(record_.nowhere), roles, gaze_);
+  add_filter(roles);
   words_.add(record_.maps, environment.sentence(), image);
   weights_.add(record_.weights, environment.sentence());
   if (has_mask()) add_mask(context);
 }
 
 void Transparency::add_map(const DecisionContext& context, std::span<const float> map,
-                           const Roles& roles, MapReport& report) {
+                           double on_nowhere, const Roles& roles, MapReport& report) {
   const bool in_view = target_in_view(roles);
   report.pointing.add(map, roles);
-  (in_view ? report.mass_in_view : report.mass_out_of_view).add(map, roles);
+  (in_view ? report.mass_in_view : report.mass_out_of_view).add(map, roles, on_nowhere);
   const Shifts moved = shifts(context, map, roles, rng_);
   report.faithfulness.add(moved);
   if (in_view) report.faithfulness_in_view.add(moved);
+}
+
+void Transparency::add_filter(const Roles& roles) {
+  const auto floor = static_cast<float>(config_.gaze_floor);
+  const float height = std::max(1 - floor, 1e-6f);
+  std::transform(record_.filter.begin(), record_.filter.end(), added_.begin(),
+                 [&](float s) { return std::max(s - floor, 0.0f) / height; });
+  if (target_in_view(roles)) {
+    filter_.add(record_.filter, roles);
+    spotlight_.add(added_, roles);
+  } else {
+    glow_.add(record_.gaze, roles);
+    spotlight_glow_.add(added_, roles);
+  }
 }
 
 void Transparency::add_mask(const DecisionContext& context) {

@@ -1,5 +1,7 @@
 #include "wordgaze/training/trainer.hpp"
 
+#include <algorithm>
+
 #include "wordgaze/babyai/level_edit.hpp"
 #include "wordgaze/core/require.hpp"
 
@@ -19,8 +21,17 @@ void validate(const TrainConfig& c) {
       "ppo: minibatches = {} does not divide the {} training sequences (lanes * steps / chunk); "
       "set ppo.minibatches to a divisor",
       c.ppo.minibatches, sequences);
+  require(c.ppo.focus_start <= c.ppo.focus_end,
+          "ppo: focus_start = {} is after focus_end = {}; set ppo.focus_end to more",
+          c.ppo.focus_start, c.ppo.focus_end);
   require(c.threads <= c.ppo.lanes, "threads = {} is more than ppo.lanes = {}", c.threads,
           c.ppo.lanes);
+}
+
+double focus_at(const TrainConfig& config, std::int64_t frames) {
+  const double done = static_cast<double>(frames) / static_cast<double>(config.frames);
+  const double from = config.ppo.focus_start, to = config.ppo.focus_end;
+  return done >= to ? 1 : std::clamp((done - from) / (to - from), 0.0, 1.0);
 }
 
 Rates rates_at(const TrainConfig& config, std::int64_t frames) {

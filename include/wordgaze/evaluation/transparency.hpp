@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -33,8 +34,13 @@ class Transparency final : public DecisionObserver {
 
   /// Of M; empty for the baseline, as are filter(), words() and weights().
   const MapReport& gaze() const { return gaze_; }
-  /// Of s(M), what the view is multiplied with, where a target is in view.
+  /// Of s(M), what the view is multiplied with, where a target is in view; and of s(M) - f, what the
+  /// gaze adds to the floor.
   const Mass& filter() const { return filter_; }
+  const Mass& spotlight() const { return spotlight_; }
+  /// Of M, and of (s(M) - f) / (1 - f), where no target is in view.
+  const Glow& glow() const { return glow_; }
+  const Glow& spotlight_glow() const { return spotlight_glow_; }
   const MapReport& gradient() const { return gradient_; }
   const MapReport& gradient_times_input() const { return product_; }
   const WordPointing& words() const { return words_; }
@@ -44,8 +50,9 @@ class Transparency final : public DecisionObserver {
   const MaskDelay& mask_delay() const { return mask_delay_; }
 
  private:
-  void add_map(const DecisionContext& context, std::span<const float> map, const Roles& roles,
-               MapReport& report);
+  void add_map(const DecisionContext& context, std::span<const float> map, double on_nowhere,
+               const Roles& roles, MapReport& report);
+  void add_filter(const Roles& roles);
   void add_mask(const DecisionContext& context);
 
   model::Config config_;
@@ -54,7 +61,9 @@ class Transparency final : public DecisionObserver {
   policy::AttentionRecord record_;
   std::int64_t decisions_ = 0;
   MapReport gaze_, gradient_, product_;
-  Mass filter_;
+  Mass filter_, spotlight_;
+  Glow glow_, spotlight_glow_;
+  std::array<float, grid::kViewCells> added_{};  // by the gaze to the floor, of one decision
   WordPointing words_;
   WordWeights weights_;
   MaskQuality mask_;

@@ -108,6 +108,8 @@ struct Agent : Design {
     Matrix<S> features, dfeatures;  ///< [H + G, N]: memory over text
     Matrix<S> dfeatures_of_actor;   // [H + G, N]
     Matrix<S> dtext;                // [G, M or more]
+    // Of a task reader that scans, alpha of each mission and what is asked of it and its logits:
+    Matrix<S> mission_mask, dmission_mask, dmission_logits;  // [mask_words, M or more]
     nn::SequenceShape shape;
   };
 
@@ -130,14 +132,25 @@ struct Agent : Design {
     refresh(w, alone);
   }
 
-  /// The text features [G, M or more] of all missions, which backward wants to find in the cache.
-  void encode_text(const Weights& w, const Missions& missions, Cache& k, Out<S> text) const {
-    Text::forward(w.params.text, w.tables.text, missions, k.text, text);
+  /// What is made once a mission [mission_features(config), M or more]: the text feature u, and
+  /// under it the mask alpha where the task reader scans. backward wants to find it in the cache.
+  void encode_text(const Weights& w, const Missions& missions, Cache& k, Out<S> features) const {
+    Matrix<S>* mask = nullptr;
+    if (scans(config)) {
+      if (k.mission_mask.cols() != features.cols()) {
+        k.mission_mask.resize(mask_words(config), features.cols());
+      }
+      TaskScan<S>::forward(w.params.task.scan, missions, k.mission_mask);  // (T4)-(T10)
+      features.bottomRows(mask_words(config)) = k.mission_mask;
+      mask = &k.mission_mask;
+    }
+    Text::forward(w.params.text, w.tables.text, missions, mask, k.text,
+                  features.topRows(config.text_size));
   }
 
-  /// From frames and the text features of their missions to the outputs.
-  void forward(const Weights& w, const Frames<S>& x, const Missions& missions, In<S> text, Cache& k,
-               Outputs<S>& y) const;
+  /// From frames and the features of their missions to the outputs.
+  void forward(const Weights& w, const Frames<S>& x, const Missions& missions,
+               In<S> mission_features, Cache& k, Outputs<S>& y) const;
 
   /// From the gradient of the outputs to those of the weights (+=). The missions are those that
   /// encode_text saw last in this cache.
@@ -148,6 +161,11 @@ struct Agent : Design {
   /// number of workers gives the same bits.
   void reduce(const Weights& w, std::span<Weights> grads, Team& team) const;
 
+  /// How far the gaze has focused, in [0, 1]; only ever more. Returns whether weights have changed.
+  bool set_focus(Params& p, double focus) const {
+    return config.attention && Attention::set_focus(p.attention, focus);
+  }
+
   /// s(M) [P, N], after forward; ones without attention.
   const Matrix<S>& scale(const Cache& k) const {
     return config.attention ? k.attention.scale : k.ones;
@@ -156,24 +174,30 @@ struct Agent : Design {
   Index entry(const CellMatrix& cells, Index cell, Index n) const {
     return Vision::entry(*this, cells, cell, n);
   }
+  /// What M has on nowhere in frame n; 0 for a gaze that does not know it.
+  S nowhere(const Cache& k, Index n) const {
+    return config.gaze == Gaze::product ? k.attention.gaze(k.attention.nowhere, n) : S(0);
+  }
 
  private:
   Tables make_tables() const;
   /// Sizes the cache for these frames; does nothing from the second call on.
   void fit(nn::SequenceShape shape, Index longest, Cache& k, Outputs<S>& y) const;
-  void attend(const Weights& w, const Frames<S>& x, const Missions& missions, Cache& k,
-              Outputs<S>& y) const;
+  void attend(const Weights& w, const Frames<S>& x, const Missions& missions,
+              In<S> mission_features, Cache& k, Outputs<S>& y) const;
+  void mask(const Weights& w, const Frames<S>& x, const Missions& missions, In<S> mission_features,
+            Cache& k, Outputs<S>& y) const;
   void attend_backward(const Weights& w, const Frames<S>& x, const Missions& missions,
                        const Outputs<S>& y, const Outputs<S>& dy, Cache& k, Weights& grads) const;
 };
 
 template <std::floating_point S, class V, class A>
 void Agent<S, V, A>::forward(const Weights& w, const Frames<S>& x, const Missions& missions,
-                             In<S> text, Cache& k, Outputs<S>& y) const {
+                             In<S> mission_features, Cache& k, Outputs<S>& y) const {
   const auto& [p, t] = w;
   fit(x.shape, missions.longest, k, y);
   V::forward(*this, p.vision, t.vision, x.cells, k.vision);  // (V): O~
-  if (config.attention) attend(w, x, missions, k, y);        // (A1)-(A6), (T1)-(T3): s(M)
+  if (config.attention) attend(w, x, missions, mission_features, k, y);  // s(M)
   // (F1), (F2): W_x (O~ * s(M))
   V::read(*this, t.vision, p.memory.input_weight, x.cells, scale(k), k.vision, k.product);
   if (config.completion_input) k.product.noalias() += p.completion * x.completion;
@@ -181,7 +205,7 @@ void Agent<S, V, A>::forward(const Weights& w, const Frames<S>& x, const Mission
   auto h = k.features.topRows(config.memory_size);
   Memory::forward(p.memory, x.shape, k.product, x.keep, x.start, k.memory, h);
   for (Index n = 0; n < x.shape.columns(); ++n) {
-    k.features.col(n).tail(config.text_size) = text.col(x.mission(n));
+    k.features.col(n).tail(config.text_size) = mission_features.col(x.mission(n)).head(config.text_size);
   }
   // (H): policy and value
   Head<S>::forward(p.actor, k.features, k.actor, y.logits);
@@ -190,19 +214,32 @@ void Agent<S, V, A>::forward(const Weights& w, const Frames<S>& x, const Mission
 
 template <std::floating_point S, class V, class A>
 void Agent<S, V, A>::attend(const Weights& w, const Frames<S>& x, const Missions& missions,
-                            Cache& k, Outputs<S>& y) const {
+                            In<S> mission_features, Cache& k, Outputs<S>& y) const {
   const auto& [p, t] = w;
-  // (A1)-(A4): A, w
-  V::with_scores(*this, t.vision, t.attention.probes, x.cells, k.vision,
+  V::with_scores(*this, t.vision, t.attention, x.cells, k.vision,
                  [&](const auto& counts, auto&& score_of) {
-                   A::forward_words(config, counts, score_of, x, missions, k.attention);
+                   A::forward_words(config, t.attention, counts, score_of, x, missions,
+                                    k.attention);                     // (A1)-(A4): A, w
+                   if (config.task_attention) mask(w, x, missions, mission_features, k, y);
+                   A::forward_gaze(config, counts, score_of, x, missions, k.alpha,
+                                   k.attention);                      // (A5), (A6): M, s(M)
                  });
-  if (config.task_attention) {  // (T1)-(T3): alpha
+}
+
+/// alpha, from this frame's weighted words or from what was read of its mission.
+template <std::floating_point S, class V, class A>
+void Agent<S, V, A>::mask(const Weights& w, const Frames<S>& x, const Missions& missions,
+                          In<S> mission_features, Cache& k, Outputs<S>& y) const {
+  const auto& p = w.params;
+  if (scans(config)) {  // (T4)-(T10)
+    for (Index n = 0; n < x.shape.columns(); ++n) {
+      y.mask.col(n) = mission_features.col(x.mission(n)).tail(y.mask.rows());
+    }
+  } else {  // (T1)-(T3)
     Task::forward(config, p.task, p.words, k.attention.weights, x, missions, k.task, y.mask);
-    const Index words = std::min(k.alpha.rows(), y.mask.rows());
-    k.alpha.topRows(words) = y.mask.topRows(words);
   }
-  A::forward_gaze(config, x, missions, k.alpha, k.attention);  // (A5), (A6): M, s(M)
+  const Index words = std::min(k.alpha.rows(), y.mask.rows());
+  k.alpha.topRows(words) = y.mask.topRows(words);
 }
 
 template <std::floating_point S, class V, class A>
@@ -219,7 +256,14 @@ void Agent<S, V, A>::backward(const Weights& w, const Frames<S>& x, const Missio
   for (Index n = 0; n < x.shape.columns(); ++n) {
     k.dtext.col(x.mission(n)) += k.dfeatures.col(n).tail(config.text_size);
   }
-  Text::backward(p.text, missions, k.dtext, k.text, dp.text, dt.text);
+  Matrix<S>* dmask = nullptr;
+  if (scans(config)) {
+    for (auto* m : {&k.dmission_mask, &k.dmission_logits}) {
+      m->setZero(k.mission_mask.rows(), k.mission_mask.cols());
+    }
+    dmask = &k.dmission_mask;
+  }
+  Text::backward(p.text, missions, k.dtext, k.text, dp.text, dt.text, dmask);
   const auto dh = k.dfeatures.topRows(config.memory_size);
   Memory::backward(p.memory, x.shape, x.keep, dh, k.memory, dp.memory, k.dproduct);
   if (config.completion_input) dp.completion.noalias() += k.dproduct * x.completion.transpose();
@@ -236,14 +280,23 @@ void Agent<S, V, A>::attend_backward(const Weights& w, const Frames<S>& x, const
   const auto& [p, t] = w;
   auto& [dp, dt] = grads;
   A::backward_gaze(config, x, missions, k.alpha, k.dscale, k.attention, k.dalpha);
-  if (config.task_attention) {
+  if (scans(config)) {
+    const Index words = std::min(k.dalpha.rows(), k.dmission_mask.rows());
+    for (Index n = 0; n < x.shape.columns(); ++n) {
+      k.dmission_logits.col(x.mission(n)) += dy.mask.col(n);
+      k.dmission_mask.col(x.mission(n)).head(words) += k.dalpha.col(n).head(words);
+    }
+    const auto alpha = k.mission_mask.array();
+    k.dmission_logits.array() += k.dmission_mask.array() * alpha * (S(1) - alpha);
+    TaskScan<S>::backward(p.task.scan, missions, k.dmission_logits, dp.task.scan);
+  } else if (config.task_attention) {
     Task::backward(config, p.task, p.words, k.attention.weights, x, missions, y.mask, k.dalpha,
                    dy.mask, k.task, dp.task, k.attention.dweights, dp.words);
   }
-  V::with_score_gradients(*this, t.vision, t.attention.probes, k.vision, dt.vision,
-                          dt.attention.probes, [&](const auto& counts, auto&& take) {
-                            A::backward_words(config, counts, x, missions, k.alpha, k.attention,
-                                              take);
+  V::with_score_gradients(*this, t.vision, t.attention, k.vision, dt.vision, dt.attention,
+                          [&](const auto& counts, auto&& take) {
+                            A::backward_words(config, t.attention, counts, x, missions, k.alpha,
+                                              k.attention, take);
                           });
 }
 
@@ -251,7 +304,7 @@ template <std::floating_point S, class V, class A>
 void Agent<S, V, A>::refresh(Weights& w, Team& team) const {
   auto& [p, t] = w;
   if (config.attention) A::refresh(p.attention, p.words, t.attention);
-  V::refresh(*this, p.vision, t.attention.probes, p.memory.input_weight, t.vision, team);
+  V::refresh(*this, p.vision, t.attention, p.memory.input_weight, t.vision, team);
   Text::refresh(p.text, p.words, t.text);
 }
 
@@ -269,7 +322,7 @@ void Agent<S, V, A>::reduce(const Weights& w, std::span<Weights> grads, Team& te
       [&](int worker) -> auto& { return grads[static_cast<std::size_t>(worker)].tables.vision; },
       dp.memory.input_weight, team);
   Text::table_backward(p.text, p.words, dt.text, dp.text, dp.words);
-  V::tables_backward(*this, t.vision, t.attention.probes, dt.vision, dt.attention.probes,
+  V::tables_backward(*this, t.vision, t.attention, dt.vision, dt.attention,
                      dp.vision);
   if (config.attention) {
     A::tables_backward(p.attention, p.words, t.attention, dt.attention, dp.attention, dp.words);
@@ -334,7 +387,7 @@ typename Agent<S, V, A>::Params Agent<S, V, A>::initialize(core::Rng& rng) const
   nn::fill_uniform(p.text.hidden_weight, gru_limit, rng);
   nn::fill_uniform(p.text.bias, gru_limit, rng);
   nn::fill_uniform(p.text.candidate_bias, gru_limit, rng);
-  if (c.task_attention) Task::initialize(rng, p.task);
+  if (c.task_attention) Task::initialize(c, rng, p.task);
   for (auto* head : {&p.actor, &p.critic}) {
     nn::fill_scaled(head->hidden.weight, std::numbers::sqrt2, rng);
     nn::fill_scaled(head->output.weight, head == &p.actor ? 0.01 : 1.0, rng);
@@ -352,12 +405,12 @@ void Agent<S, V, A>::fit(nn::SequenceShape shape, Index longest, Cache& k, Outpu
   const Config& c = config;
   k.shape = shape;
   V::resize(*this, frames, k.vision);
-  if (c.attention) k.attention.resize(V::entries(*this), frames, words);
-  if (c.task_attention) k.task.resize(c, frames);
+  if (c.attention) k.attention.resize(V::entries(*this), V::nowhere(*this), frames, words);
+  if (c.task_attention && !scans(c)) k.task.resize(c, frames);
   k.memory.resize(c.memory_size, shape);
   for (auto* head : {&k.actor, &k.critic}) head->resize(c.head_size, frames);
   k.alpha.setOnes(words, frames);
-  k.dalpha.setZero(c.task_attention ? c.task_words : words, frames);
+  k.dalpha.setZero(c.task_attention && !scans(c) ? c.task_words : words, frames);
   k.ones.setOnes(V::entries(*this), frames);
   k.dscale.setZero(V::entries(*this), frames);
   for (auto* m : {&k.product, &k.dproduct}) m->resize(4 * c.memory_size, frames);

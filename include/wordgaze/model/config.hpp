@@ -1,8 +1,10 @@
 #pragma once
 #include <array>
+#include <numbers>
 #include <string_view>
 #include <tuple>
 
+#include "wordgaze/babyai/vocabulary.hpp"
 #include "wordgaze/core/require.hpp"
 #include "wordgaze/core/setting.hpp"
 
@@ -15,11 +17,26 @@ enum class Encoder {
 };
 constexpr std::array<std::string_view, 2> names(Encoder) { return {"1x1", "3x3"}; }
 
+/// How the maps of the words become the gaze M.
+enum class Gaze {
+  product,  ///< their weighted geometric mean: "red" and "ball"; and the target may be nowhere
+  sum,      ///< their weighted sum, as the paper: "red" or "ball"
+};
+constexpr std::array<std::string_view, 2> names(Gaze) { return {"product", "sum"}; }
+
+/// How the Task Attention Module reads the mission.
+enum class Reader {
+  sum,     ///< the sum of the weighted words, as the paper: it does not know their order
+  places,  ///< the weighted words, each in its place
+  scan,    ///< word by word in both directions: what it learns of two clauses holds for eight
+};
+constexpr std::array<std::string_view, 3> names(Reader) { return {"sum", "places", "scan"}; }
+
 /// Sizes and readings of the network, named as in the paper; docs/reading.md gives the reasons.
 struct Config {
   bool attention = true;          ///< false: the baseline, F = O~
   bool task_attention = false;    ///< the Task Attention Module
-  bool task_places = false;       ///< it reads the weighted words place by place, not their sum
+  Reader task_reader = Reader::scan;  ///< how it reads the mission
   bool completion_input = false;  ///< c_t goes to the memory, beside the filtered view
   Encoder encoder = Encoder::cell;
   int channels = 16;         ///< C: feature maps of the visual encoding O~
@@ -30,11 +47,20 @@ struct Config {
   int head_size = 64;        ///< hidden layer of actor and of critic
   int task_size = 64;        ///< hidden layer of the Task Attention Module
   int task_words = 32;       ///< outputs of the Task Attention Module: longest mission it takes
-  int sub_tasks = 4;         ///< length of the completion vector c_t
-  double entropy_base = 49;  ///< base of the logarithm in the row entropies H (eq. 2)
+  int sub_tasks = 16;         ///< length of the completion vector c_t
+  Gaze gaze = Gaze::product;
+  double entropy_base = std::numbers::e;  ///< of the logarithm in the row entropies H (eq. 2)
+  double gaze_floor = 0.1;                ///< f: what s(M) leaves of the darkest cells
+  double object_prior = 2;  ///< initial score of objects over other cells; 0: none
+  // Of the product:
+  double sharpness_start = 4;  ///< of the words' maps: their inverse temperature, at first
+  double sharpness = 40;       ///< and when the gaze has focused
+  double nowhere = 0.45;       ///< score of nowhere, as a share of a word's best match
+  double word_choice = 8;      ///< exponent of the contest between what a word says
+  double quiet_word = 0.3;     ///< size below which a word says nothing, as a share of the largest
+  double score_cost = 1e-6;    ///< weight of the squared scores in the loss, until the gaze focuses
+  // Of the sum:
   double gaze_exponent = 2;  ///< p in s(M) = f + (1 - f) (M / max M)^p
-  double gaze_floor = 0.1;   ///< f: what is left of the darkest cells
-  double object_prior = 2;   ///< initial score of every word on objects over other cells; 0: none
   double encoder_bias = 1;   ///< initial bias of the visual encoder: near-linear at the start
   double encoder_leak = 1;   ///< slope of its leaky ReLU below zero; 1: linear, 0: plain ReLU
 
@@ -43,9 +69,9 @@ struct Config {
     return std::tuple{
         Setting{"attention", &C::attention, "text-visual attention; false is the baseline"},
         Setting{"task_attention", &C::task_attention, "the Task Attention Module (mask alpha)"},
-        Setting{"task_places", &C::task_places,
-                "the module reads the weighted words place by place instead of their sum, which "
-                "does not know their order"},
+        Setting{"task_reader", &C::task_reader,
+                "how the module reads the mission: the sum of its weighted words, which does not "
+                "know their order; each in its place; or a scan, which composes"},
         Setting{"completion_input", &C::completion_input,
                 "the memory reads c_t too; an ablation of the Task Attention Module"},
         Setting{"encoder", &C::encoder,
@@ -59,15 +85,34 @@ struct Config {
         Setting{"task_size", &C::task_size, "hidden layer of the Task Attention Module", 1, 4096},
         Setting{"task_words", &C::task_words,
                 "longest mission, in words, that the Task Attention Module takes", 1, 73},
-        Setting{"sub_tasks", &C::sub_tasks, "length of the completion vector c_t", 1, 8, "clauses"},
+        Setting{"sub_tasks", &C::sub_tasks, "length of the completion vector c_t", 1, 16, "clauses"},
+        Setting{"gaze", &C::gaze,
+                "how the maps of the words become M: their product, which says \"red\" and "
+                "\"ball\" and can say nowhere, or the paper's sum"},
         Setting{"entropy_base", &C::entropy_base,
                 "base of the logarithm in the row entropies (eq. 2); 2.718281828 or 49", 1.1, 1e6},
-        Setting{"gaze_exponent", &C::gaze_exponent, "p in s(M) = f + (1 - f) (M / max M)^p", 1, 16},
         Setting{"gaze_floor", &C::gaze_floor,
-                "f in it: what is left of the darkest cells; 0: nothing", 0, 1},
+                "f: what s(M) leaves of the darkest cells; 0: nothing", 0, 1},
         Setting{"object_prior", &C::object_prior,
-                "initial score of every word on objects over other cells; 0 switches it off", 0,
-                16},
+                "initial score of objects over other cells; 0 switches it off", 0, 16},
+        Setting{"sharpness_start", &C::sharpness_start,
+                "product: inverse temperature of the words' maps at the start", 0, 1e3},
+        Setting{"sharpness", &C::sharpness, "product: and when the gaze has focused", 0, 1e3},
+        Setting{"nowhere", &C::nowhere,
+                "product: score of nowhere, as a share of what a word scores on its best match", 0,
+                1},
+        Setting{"word_choice", &C::word_choice,
+                "product: exponent of the contest by which a word speaks of type or of color; 0: no "
+                "contest, each word keeps a third of both",
+                0, 64},
+        Setting{"quiet_word", &C::quiet_word,
+                "product: size of what a word says, as a share of the largest of the vocabulary, "
+                "below which it falls silent",
+                0, 1},
+        Setting{"score_cost", &C::score_cost,
+                "product: weight of the squared scores in the loss, until the gaze focuses", 0, 1},
+        Setting{"gaze_exponent", &C::gaze_exponent,
+                "sum: p in s(M) = f + (1 - f) (M / max M)^p", 1, 16},
         Setting{"encoder_bias", &C::encoder_bias,
                 "initial bias of the visual encoder (1: near-linear at the start)", -4, 4},
         Setting{
@@ -80,11 +125,30 @@ struct Config {
   bool operator==(const Config&) const = default;
 };
 
+/// The Task Attention Module reads the mission once for each completion vector, apart from the view.
+inline bool scans(const Config& c) { return c.task_attention && c.task_reader == Reader::scan; }
+/// Words of the longest mission that the module takes.
+inline int mask_words(const Config& c) {
+  return c.task_reader == Reader::scan ? babyai::kMaxMissionWords : c.task_words;
+}
+/// Numbers that are made once a mission: the text feature, and the mask under it where it is read
+/// with the mission.
+inline int mission_features(const Config& c) {
+  return c.text_size + (scans(c) ? mask_words(c) : 0);
+}
+
 /// Throws std::invalid_argument where settings contradict each other.
 inline void validate(const Config& c) {
   require(c.attention || !c.task_attention,
           "model: task_attention = true masks word weights, so it needs attention = true (it is "
           "false); set model.attention=true or model.task_attention=false");
+  require(!c.attention || c.gaze == Gaze::sum || c.encoder == Encoder::cell,
+          "model: gaze = \"product\" asks what a word says of each kind of cell, and encoder = "
+          "\"3x3\" knows no kinds; set model.gaze=sum or model.encoder=1x1");
+  require(c.sharpness >= c.sharpness_start,
+          "model: sharpness = {} is less than sharpness_start = {}; the gaze focuses, it does not "
+          "blur",
+          c.sharpness, c.sharpness_start);
 }
 
 }  // namespace wordgaze::model

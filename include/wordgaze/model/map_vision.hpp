@@ -7,6 +7,7 @@
 #include "wordgaze/core/types.hpp"
 #include "wordgaze/model/design.hpp"
 #include "wordgaze/model/view_map.hpp"
+#include "wordgaze/model/word_tables.hpp"
 #include "wordgaze/nn/parameters.hpp"
 
 namespace wordgaze::model {
@@ -77,13 +78,14 @@ struct MapVision {
   static void set_object_channel(const Design& d, Params& p) { Encoder::set_object_channel(d, p); }
 
   static Index entries(const Design&) { return kMapSlots; }
+  static Index nowhere(const Design&) { return -1; }
   static Index entry(const Design&, const CellMatrix&, Index cell, Index) { return map_slot(cell); }
   static auto encoding(const Design&, const Tables&, const Cache& k, const CellMatrix&, Index cell,
                        Index n) {
     return map_frame(k.encoder.output, n).col(map_slot(cell));
   }
 
-  static void refresh(const Design& d, const Params& p, In<S> /*probes*/, In<S> /*input_weight*/,
+  static void refresh(const Design& d, const Params& p, const WordTables<S>&, In<S> /*input_weight*/,
                       Tables& t, Team&) {
     Encoder::refresh(d, p, t);
   }
@@ -93,10 +95,10 @@ struct MapVision {
   }
 
   template <class F>
-  static void with_scores(const Design&, const Tables&, In<S> probes, const CellMatrix&, Cache& k,
+  static void with_scores(const Design&, const Tables&, const WordTables<S>& words, const CellMatrix&, Cache& k,
                           F&& f) {
     f(k.counts, [&](Index n, Index word) -> const Vector<S>& {
-      k.score.noalias() = map_frame(k.encoder.output, n).transpose() * probes.col(word);
+      k.score.noalias() = map_frame(k.encoder.output, n).transpose() * words.probes.col(word);
       return k.score;
     });
   }
@@ -132,12 +134,12 @@ struct MapVision {
   }
 
   template <class F>
-  static void with_score_gradients(const Design&, const Tables&, In<S> probes, Cache& k, Tables&,
-                                   Matrix<S>& dprobes, F&& f) {
+  static void with_score_gradients(const Design&, const Tables&, const WordTables<S>& words, Cache& k, Tables&,
+                                   WordTables<S>& dwords, F&& f) {
     f(k.counts, [&](Index n, Index word, const auto& dscore) {
       k.score = dscore;
-      map_frame(k.encoder.doutput, n).noalias() += probes.col(word) * k.score.transpose();
-      dprobes.col(word).noalias() += map_frame(k.encoder.output, n) * k.score;
+      map_frame(k.encoder.doutput, n).noalias() += words.probes.col(word) * k.score.transpose();
+      dwords.probes.col(word).noalias() += map_frame(k.encoder.output, n) * k.score;
     });
   }
 
@@ -151,8 +153,8 @@ struct MapVision {
   template <class TablesOf>
   static void reduce(const Design&, const Tables&, In<S>, TablesOf&&, Out<S>, Team&) {}
 
-  static void tables_backward(const Design& d, const Tables&, In<S> /*probes*/, Tables& dt,
-                              Matrix<S>& /*dprobes*/, Params& grads) {
+  static void tables_backward(const Design& d, const Tables&, const WordTables<S>&, Tables& dt,
+                              WordTables<S>&, Params& grads) {
     Encoder::tables_backward(d, dt, grads);
   }
 };

@@ -20,7 +20,7 @@ struct Outputs {
   void resize(const Config& config, Index frames) {
     logits.resize(grid::kActions, frames);
     values.resize(1, frames);
-    mask.resize(config.task_attention ? config.task_words : 0, frames);
+    mask.resize(config.task_attention ? mask_words(config) : 0, frames);
   }
   void set_zero() {
     for (auto* m : {&logits, &values, &mask}) m->setZero();

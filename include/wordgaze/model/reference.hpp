@@ -116,7 +116,7 @@ struct ReferenceAgent {
     const auto& p = params.task;
     Vector<S> in = Vector<S>::Zero(p.hidden.weight.cols());
     for (int i = 0; i < mission.length; ++i) {
-      const Index row = c.task_places ? i * c.word_size : 0;
+      const Index row = c.task_reader == Reader::places ? i * c.word_size : 0;
       in.segment(row, c.word_size) +=
           w(i) * params.words.col(mission.words[static_cast<std::size_t>(i)]);
     }

@@ -7,6 +7,8 @@
 #include "wordgaze/core/team.hpp"
 #include "wordgaze/core/types.hpp"
 #include "wordgaze/model/cell_encoder.hpp"
+#include "wordgaze/model/lexicon.hpp"
+#include "wordgaze/model/word_tables.hpp"
 #include "wordgaze/nn/parameters.hpp"
 
 namespace wordgaze::model {
@@ -15,7 +17,7 @@ namespace wordgaze::model {
 /// whatever depends on one cell is a table over them, made once a version of the weights:
 ///
 ///     encodings  O~ of each code
-///     scores     of each word on each code
+///     scores     of each word on each code and, behind them, on nowhere
 ///     input      (the columns of W_x of a cell) times (O~ of a code), for each cell and code
 ///
 /// With the last the filtered view F = O~ * s(M) is never formed: W_x F is a sum over the 49 cells
@@ -30,7 +32,8 @@ struct TableVision {
 
   struct Tables {
     Matrix<S> encodings;  ///< [C, codes]
-    Matrix<S> scores;     ///< [P, V]; empty without attention
+    Matrix<S> scores;     ///< [P, V + 1]; empty without attention
+    typename Lexicon<S>::Tables lexicon;  // empty but for the product gaze
     Matrix<S> input;      ///< [4 H, 49 codes]: column cell * codes + code
     static constexpr auto fields() {
       return std::tuple{nn::Field{"encodings", &Tables::encodings},
@@ -38,14 +41,15 @@ struct TableVision {
     }
   };
   struct Cache {
-    Matrix<S> counts;  ///< [P, N] cells of each code in view
+    Matrix<S> counts;  ///< [P, N] cells of each code in view; of nowhere 1, or 0 for the sum gaze
   };
 
   static void resize(const Design& d, Params& p) { Encoder::resize(d, p); }
   static void resize(const Design& d, Tables& t) {
     const Config& c = d.config;
     t.encodings.setZero(c.channels, d.alphabet.size());
-    t.scores.setZero(c.attention ? entries(d) : 0, babyai::kVocabularySize);
+    t.scores.setZero(c.attention ? entries(d) : 0, babyai::kVocabularySize + 1);
+    if (c.attention && c.gaze == Gaze::product) Lexicon<S>::resize(d, t.lexicon);
     t.input.setZero(4 * c.memory_size, grid::kViewCells * d.alphabet.size());
   }
   static void resize(const Design& d, Index frames, Cache& k) {
@@ -58,8 +62,9 @@ struct TableVision {
 
   static Index entries(const Design& d) {
     constexpr Index kPacket = 16;
-    return (d.alphabet.size() + kPacket - 1) / kPacket * kPacket;
+    return (nowhere(d) + 1 + kPacket - 1) / kPacket * kPacket;
   }
+  static Index nowhere(const Design& d) { return d.alphabet.size(); }
   static Index entry(const Design&, const CellMatrix& cells, Index cell, Index n) {
     return cells(cell, n);
   }
@@ -68,11 +73,17 @@ struct TableVision {
     return t.encodings.col(cells(cell, n));
   }
 
-  static void refresh(const Design& d, const Params& p, In<S> probes, In<S> input_weight, Tables& t,
+  static void refresh(const Design& d, const Params& p, const WordTables<S>& words, In<S> input_weight, Tables& t,
                       Team& team) {
     Encoder::forward(d, p, t.encodings);
     if (d.config.attention) {
-      t.scores.topRows(d.alphabet.size()).noalias() = t.encodings.transpose() * probes;
+      auto scores = t.scores.topRows(d.alphabet.size());
+      scores.noalias() = t.encodings.transpose() * words.probes;
+      if (d.config.gaze == Gaze::product) {
+        const Matrix<S> raw = scores.leftCols(kSilentWord);
+        Lexicon<S>::forward(d.config, words.focus, raw, t.lexicon,
+                            t.scores.topLeftCorner(nowhere(d) + 1, kSilentWord));
+      }
     }
     const Index channels = t.encodings.rows(), codes = t.encodings.cols();
     team.run([&](int w) {
@@ -87,9 +98,10 @@ struct TableVision {
   static void forward(const Design&, const Params&, const Tables&, const CellMatrix&, Cache&) {}
 
   template <class F>
-  static void with_scores(const Design&, const Tables& t, In<S> /*probes*/, const CellMatrix& cells,
-                          Cache& k, F&& f) {
+  static void with_scores(const Design& d, const Tables& t, const WordTables<S>&,
+                          const CellMatrix& cells, Cache& k, F&& f) {
     k.counts.setZero();
+    if (d.config.gaze == Gaze::product) k.counts.row(nowhere(d)).setOnes();
     for (Index n = 0; n < cells.cols(); ++n) {
       for (Index c = 0; c < grid::kViewCells; ++c) k.counts(cells(c, n), n) += S(1);
     }
@@ -136,8 +148,8 @@ struct TableVision {
   }
 
   template <class F>
-  static void with_score_gradients(const Design&, const Tables&, In<S> /*probes*/, Cache& k,
-                                   Tables& dt, Matrix<S>& /*dprobes*/, F&& f) {
+  static void with_score_gradients(const Design&, const Tables&, const WordTables<S>&, Cache& k,
+                                   Tables& dt, WordTables<S>&, F&& f) {
     f(k.counts, [&](Index, Index word, const auto& dscore) { dt.scores.col(word) += dscore; });
   }
 
@@ -167,12 +179,20 @@ struct TableVision {
     for (int w = 1; w < team.size(); ++w) sum.encodings += dtables_of(w).encodings;
   }
 
-  static void tables_backward(const Design& d, const Tables& t, In<S> probes, Tables& dt,
-                              Matrix<S>& dprobes, Params& grads) {
+  static void tables_backward(const Design& d, const Tables& t, const WordTables<S>& words, Tables& dt,
+                              WordTables<S>& dwords, Params& grads) {
     if (d.config.attention) {
-      const auto dscores = dt.scores.topRows(d.alphabet.size());
-      dprobes.noalias() += t.encodings * dscores;
-      dt.encodings.noalias() += probes * dscores.transpose();
+      auto dscores = dt.scores.topRows(d.alphabet.size());
+      if (d.config.gaze == Gaze::product) {
+        // A word says no more than it needs: the scores have a price until the gaze focuses.
+        const auto price = static_cast<S>(d.config.score_cost) * (S(1) - words.focus);
+        dscores.leftCols(kSilentWord) +=
+            price * t.scores.topLeftCorner(d.alphabet.size(), kSilentWord);
+        Lexicon<S>::backward(d.config, t.lexicon,
+                             dt.scores.topLeftCorner(nowhere(d) + 1, kSilentWord));
+      }
+      dwords.probes.noalias() += t.encodings * dscores;
+      dt.encodings.noalias() += words.probes * dscores.transpose();
     }
     Encoder::backward(d, t.encodings, dt.encodings, grads);
   }

@@ -9,6 +9,7 @@
 #include "wordgaze/core/types.hpp"
 #include "wordgaze/model/frames.hpp"
 #include "wordgaze/model/missions.hpp"
+#include "wordgaze/model/task_scan.hpp"
 #include "wordgaze/nn/initialize.hpp"
 #include "wordgaze/nn/linear.hpp"
 #include "wordgaze/nn/parameters.hpp"
@@ -26,9 +27,11 @@ namespace wordgaze::model {
 template <std::floating_point S>
 struct TaskAttention {
   struct Params {
-    typename nn::Linear<S>::Params hidden, output;
+    typename nn::Linear<S>::Params hidden, output;  ///< empty where the reader is a scan
+    typename TaskScan<S>::Params scan;              ///< empty for the other readers
     static constexpr auto fields() {
-      return std::tuple{nn::Field{"hidden", &Params::hidden}, nn::Field{"output", &Params::output}};
+      return std::tuple{nn::Field{"hidden", &Params::hidden}, nn::Field{"output", &Params::output},
+                        nn::Field{"scan", &Params::scan}};
     }
   };
   struct Cache {
@@ -43,10 +46,12 @@ struct TaskAttention {
   };
 
   static void resize(const Config& c, Params& p) {
+    if (scans(c)) return TaskScan<S>::resize(p.scan);
     nn::Linear<S>::resize(words_read(c) + c.sub_tasks, c.task_size, p.hidden);
     nn::Linear<S>::resize(c.task_size, c.task_words, p.output);
   }
-  static void initialize(core::Rng& rng, Params& p) {
+  static void initialize(const Config& c, core::Rng& rng, Params& p) {
+    if (scans(c)) return TaskScan<S>::initialize(p.scan);
     nn::fill_scaled(p.hidden.weight, std::numbers::sqrt2, rng);
     nn::fill_scaled(p.output.weight, 0.1, rng);
     p.output.bias.setConstant(2);  // every word bright at the start
@@ -85,7 +90,7 @@ struct TaskAttention {
 
  private:
   static Index words_read(const Config& c) {
-    return c.task_places ? c.task_words * c.word_size : c.word_size;
+    return c.task_reader == Reader::places ? c.task_words * c.word_size : c.word_size;
   }
   /// Calls f(frame, place in the mission, first row of x that the word is added to, word).
   template <class F>
@@ -93,7 +98,7 @@ struct TaskAttention {
     for (Index n = 0; n < x.shape.columns(); ++n) {
       const auto& sentence = missions[x.mission(n)];
       for (Index i = 0; i < sentence.length; ++i) {
-        f(n, i, c.task_places ? i * c.word_size : 0, sentence.words[static_cast<std::size_t>(i)]);
+        f(n, i, c.task_reader == Reader::places ? i * c.word_size : 0, sentence.words[static_cast<std::size_t>(i)]);
       }
     }
   }

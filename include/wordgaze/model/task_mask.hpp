@@ -31,9 +31,9 @@ inline std::uint8_t bright_sub_tasks(MaskTruth truth, const babyai::Progress& pr
   return bright;
 }
 
-/// The true mask of a word: 1 for bright sub-tasks and for the words that join clauses.
+/// The true mask of a word: 1 for bright sub-tasks.
 constexpr bool is_bright(int sub_task, std::uint8_t bright) {
-  return sub_task < 0 || ((bright >> sub_task) & 1u) != 0;
+  return sub_task >= 0 && ((bright >> sub_task) & 1u) != 0;
 }
 
 }  // namespace wordgaze::model

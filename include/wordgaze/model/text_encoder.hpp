@@ -34,8 +34,9 @@ struct TextEncoder {
     dwords.noalias() += p.input_weight.transpose() * dtable;
   }
 
-  static void forward(const Params& p, In<S> table, const Missions& missions, Cache& k,
-                      Out<S> text) {
+  /// With a mask [L or more, M] a word changes the state as far as it is bright.
+  static void forward(const Params& p, In<S> table, const Missions& missions, const Matrix<S>* mask,
+                      Cache& k, Out<S> text) {
     const nn::SequenceShape shape{missions.longest, missions.size()};
     const Index columns = shape.columns();
     if (k.active.cols() < columns) {
@@ -44,18 +45,20 @@ struct TextEncoder {
     }
     k.active.leftCols(columns).setZero();
     k.product.leftCols(columns).setZero();
-    for_each_word(missions, shape, [&](Index column, babyai::WordId word) {
-      k.active(0, column) = S(1);
+    for_each_word(missions, shape, [&](int m, int i, Index column, babyai::WordId word) {
+      k.active(0, column) = mask != nullptr ? (*mask)(i, m) : S(1);
       k.product.col(column) = table.col(word);
     });
     nn::Gru<S>::forward(p, shape, k.product, k.active, k.gru, text.leftCols(shape.batch));
   }
+  /// dmask [L or more, M] is accumulated into, if there is one.
   static void backward(const Params& p, const Missions& missions, In<S> dtext, Cache& k,
-                       Params& grads, Out<S> dtable) {
+                       Params& grads, Out<S> dtable, Matrix<S>* dmask) {
     const nn::SequenceShape shape{missions.longest, missions.size()};
     nn::Gru<S>::backward(p, shape, k.active, dtext.leftCols(shape.batch), k.gru, grads, k.dproduct);
-    for_each_word(missions, shape, [&](Index column, babyai::WordId word) {
+    for_each_word(missions, shape, [&](int m, int i, Index column, babyai::WordId word) {
       dtable.col(word) += k.dproduct.col(column);
+      if (dmask != nullptr) (*dmask)(i, m) += k.gru.dactive(0, column);
     });
   }
 
@@ -65,7 +68,7 @@ struct TextEncoder {
     for (int m = 0; m < missions.size(); ++m) {
       const auto& sentence = missions[m];
       for (int i = 0; i < sentence.length; ++i) {
-        f(shape.column(i, m), sentence.words[static_cast<std::size_t>(i)]);
+        f(m, i, shape.column(i, m), sentence.words[static_cast<std::size_t>(i)]);
       }
     }
   }

@@ -8,6 +8,7 @@
 #include "wordgaze/model/map_vision.hpp"
 #include "wordgaze/model/patch_encoder.hpp"
 #include "wordgaze/model/table_vision.hpp"
+#include "wordgaze/model/word_tables.hpp"
 #include "wordgaze/nn/parameters.hpp"
 
 /// Vision: the block that encodes the view, compares it with words, and hands what attention leaves
@@ -97,6 +98,10 @@ struct ConfiguredVision {
   static Index entries(const Design& d) {
     return choose(d, [&](auto vision, auto) { return vision.entries(d); });
   }
+  /// The entry that is no cell; -1 where there is none.
+  static Index nowhere(const Design& d) {
+    return choose(d, [&](auto vision, auto) { return vision.nowhere(d); });
+  }
   static Index entry(const Design& d, const CellMatrix& cells, Index cell, Index n) {
     return choose(d, [&](auto vision, auto) { return vision.entry(d, cells, cell, n); });
   }
@@ -107,10 +112,10 @@ struct ConfiguredVision {
     });
   }
 
-  static void refresh(const Design& d, const Params& p, In<S> probes, In<S> input_weight, Tables& t,
+  static void refresh(const Design& d, const Params& p, const WordTables<S>& words, In<S> input_weight, Tables& t,
                       Team& team) {
     choose(d, [&](auto vision, auto its) {
-      vision.refresh(d, its(p), probes, input_weight, its(t), team);
+      vision.refresh(d, its(p), words, input_weight, its(t), team);
     });
   }
   static void forward(const Design& d, const Params& p, const Tables& t, const CellMatrix& cells,
@@ -118,10 +123,10 @@ struct ConfiguredVision {
     choose(d, [&](auto vision, auto its) { vision.forward(d, its(p), its(t), cells, its(k)); });
   }
   template <class F>
-  static void with_scores(const Design& d, const Tables& t, In<S> probes, const CellMatrix& cells,
+  static void with_scores(const Design& d, const Tables& t, const WordTables<S>& words, const CellMatrix& cells,
                           Cache& k, F&& f) {
     choose(d, [&](auto vision, auto its) {
-      vision.with_scores(d, its(t), probes, cells, its(k), std::forward<F>(f));
+      vision.with_scores(d, its(t), words, cells, its(k), std::forward<F>(f));
     });
   }
   static void read(const Design& d, const Tables& t, In<S> input_weight, const CellMatrix& cells,
@@ -140,10 +145,10 @@ struct ConfiguredVision {
     });
   }
   template <class F>
-  static void with_score_gradients(const Design& d, const Tables& t, In<S> probes, Cache& k,
-                                   Tables& dt, Matrix<S>& dprobes, F&& f) {
+  static void with_score_gradients(const Design& d, const Tables& t, const WordTables<S>& words, Cache& k,
+                                   Tables& dt, WordTables<S>& dwords, F&& f) {
     choose(d, [&](auto vision, auto its) {
-      vision.with_score_gradients(d, its(t), probes, its(k), its(dt), dprobes, std::forward<F>(f));
+      vision.with_score_gradients(d, its(t), words, its(k), its(dt), dwords, std::forward<F>(f));
     });
   }
   static void backward(const Design& d, const Params& p, const Tables& t, const CellMatrix& cells,
@@ -164,10 +169,10 @@ struct ConfiguredVision {
       vision.reduce(d, its(t), input_weight, own, dinput_weight, team);
     });
   }
-  static void tables_backward(const Design& d, const Tables& t, In<S> probes, Tables& dt,
-                              Matrix<S>& dprobes, Params& grads) {
+  static void tables_backward(const Design& d, const Tables& t, const WordTables<S>& words, Tables& dt,
+                              WordTables<S>& dwords, Params& grads) {
     choose(d, [&](auto vision, auto its) {
-      vision.tables_backward(d, its(t), probes, its(dt), dprobes, its(grads));
+      vision.tables_backward(d, its(t), words, its(dt), dwords, its(grads));
     });
   }
 };

@@ -15,7 +15,8 @@ namespace wordgaze::nn {
 /// vocabulary.
 ///
 /// shapes   product [3 hidden, T*B]  W_x x
-///          active [1, T*B]  1 while the sequence lasts, 0 behind its end
+///          active [1, T*B]  how far a step changes the state: 0 behind the end of a sequence, else in
+///                           (0, 1], as a rule 1
 ///          h [hidden, B]  the state after each whole sequence
 ///          A cache and dproduct may be larger than the batch: columns behind T*B are not touched.
 /// backward accumulates into grads (+=) all but input_weight, which is the caller's; overwrites
@@ -38,11 +39,13 @@ struct Gru {
   struct Cache {
     Matrix<S> gates, h_prev, recurrent;  // recurrent: W_h h_prev (+ candidate bias)
     Matrix<S> dh, drecurrent;
+    Matrix<S> dactive;  ///< [1, columns] after backward
     /// Grows to hold `columns`; batches of any shape up to that size then cost no allocation.
     void reserve(Index hidden, Index columns) {
       if (columns <= gates.cols()) return;
       for (auto* m : {&gates, &recurrent, &drecurrent}) m->resize(3 * hidden, columns);
       for (auto* m : {&h_prev, &dh}) m->resize(hidden, columns);
+      dactive.resize(1, columns);
     }
   };
 
@@ -103,9 +106,8 @@ struct Gru {
       du.topRows(2 * hidden) = dx.topRows(2 * hidden);
       du.bottomRows(hidden).array() = dn * r;
       // dh becomes dh_prev: through the update gate (all of it behind the end) and through W_h.
-      for (Index b = 0; b < shape.batch; ++b) {
-        if (alive(b) != S(0)) dh.col(b).array() *= z.col(b);
-      }
+      shape.block(k.dactive, t) = (dh.array() * (S(1) - z) * (n - h_prev)).colwise().sum();
+      dh.array() *= S(1) - (S(1) - z).rowwise() * alive;
       dh.noalias() += p.hidden_weight.transpose() * du;
     }
     const auto all = [&](const auto& m) { return m.leftCols(shape.columns()); };

@@ -16,7 +16,7 @@ class MissionTable {
   explicit MissionTable(int remembered) : remembered_(remembered) {}
 
   /// The slot of a mission, which is held until it is released as often.
-  int acquire(const babyai::Sentence& sentence) {
+  int acquire(const model::Mission& sentence) {
     auto& slots = missions_.sentences;
     const auto found = std::find(slots.begin(), slots.end(), sentence);
     int slot = static_cast<int>(found - slots.begin());
@@ -30,14 +30,14 @@ class MissionTable {
   void release(int slot) { --holders_[static_cast<std::size_t>(slot)]; }
 
   const model::Missions& missions() const { return missions_; }
-  const babyai::Sentence& operator[](int slot) const { return missions_[slot]; }
+  const model::Mission& operator[](int slot) const { return missions_[slot]; }
 
   /// Slots whose text is still to be encoded, in the order of their coming.
   const std::vector<int>& fresh() const { return fresh_; }
   void all_encoded() { fresh_.clear(); }
 
  private:
-  int new_slot(const babyai::Sentence& sentence) {
+  int new_slot(const model::Mission& sentence) {
     const auto unused = std::count(holders_.begin(), holders_.end(), 0);
     if (unused <= remembered_) {
       holders_.push_back(0);

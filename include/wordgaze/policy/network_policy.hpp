@@ -47,6 +47,7 @@ class NetworkPolicy final : public Policy {
       record.gaze.push_back(attention.gaze(entry(c), lane));
       record.filter.push_back(attention.scale(entry(c), lane));
     }
+    record.nowhere = agent_->nowhere(decided_, lane);
   }
 
   Matrix<float> policies_for(int lane, const model::CellMatrix& views) override {

@@ -5,11 +5,11 @@
 
 #include "wordgaze/babyai/sentence.hpp"
 #include "wordgaze/grid/observation.hpp"
+#include "wordgaze/model/missions.hpp"
 
 namespace wordgaze::policy {
 
-/// The most sub-tasks that a completion vector tells of.
-inline constexpr std::size_t kMaxSubTasks = 8;
+using model::kMaxSubTasks;
 
 /// What an agent is told before each decision: a value, from an environment (environment.hpp), a
 /// robot's camera or a message.

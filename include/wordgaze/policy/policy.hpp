@@ -183,21 +183,23 @@ inline void Policy::check_mission(const babyai::Sentence& sentence) const {
       "mission '{}' has {} sub-tasks, the completion vector of the agent {}; train with a larger "
       "model.sub_tasks",
       babyai::text(sentence), sub_tasks, config.sub_tasks);
-  require(!config.task_attention || sentence.length <= config.task_words,
+  require(!config.task_attention || sentence.length <= model::mask_words(config),
           "mission '{}' has {} words, the Task Attention Module takes {}; train with a larger "
           "model.task_words",
-          babyai::text(sentence), sentence.length, config.task_words);
+          babyai::text(sentence), sentence.length, model::mask_words(config));
 }
 
 inline void Policy::observe(int lane, const Observation& observation) {
   int& mission = frames_.mission_of[static_cast<std::size_t>(check(lane))];
-  const bool another = mission == kNoMission || missions_[mission] != observation.sentence;
+  model::Mission wanted{observation.sentence, {}};
+  if (model::scans(design_->config)) wanted.done = observation.completion;
+  const bool another = mission == kNoMission || missions_[mission] != wanted;
   if (another) check_mission(observation.sentence);
   std::array<std::uint8_t, grid::kViewCells> cells;
   design_->alphabet.encode(observation.image, cells);
   if (another) {
     if (mission != kNoMission) missions_.release(mission);
-    mission = missions_.acquire(observation.sentence);
+    mission = missions_.acquire(wanted);
   }
   std::copy(cells.begin(), cells.end(), frames_.cells.col(lane).data());
   auto completion = frames_.completion.col(lane);
@@ -210,7 +212,7 @@ inline void Policy::encode_fresh_missions() {
   if (missions_.fresh().empty()) return;
   fresh_missions_.clear();
   for (const int slot : missions_.fresh()) fresh_missions_.index_of(missions_[slot]);
-  const Index size = design_->config.text_size, fresh = fresh_missions_.size();
+  const Index size = model::mission_features(design_->config), fresh = fresh_missions_.size();
   if (fresh_text_.cols() < fresh) fresh_text_.resize(size, fresh);
   encode_text(fresh_missions_, fresh_text_);
   if (text_.cols() < missions().size()) {
@@ -255,7 +257,7 @@ inline void Policy::set_memory(int lane, const Memory& memory) {
 inline void Policy::keep(int lane) {
   if (kept_count_ == kept_.size()) kept_.emplace_back();
   Kept& kept = kept_[kept_count_++];
-  kept.mission = missions_.acquire(sentence(check(lane)));
+  kept.mission = missions_.acquire(missions_[frames_.mission(check(lane))]);
   kept.cells = frames_.cells.col(lane);
   kept.completion = frames_.completion.col(lane);
   kept.h = frames_.start.h.col(lane);

@@ -29,6 +29,8 @@ struct PpoConfig {
   double entropy_frames = 1.5e6;
   double gradient_norm = 0.5;
   double advantage_floor = 0.2;
+  double focus_start = 0.4;
+  double focus_end = 0.75;
   double mask_coefficient = 1;
   model::MaskTruth mask_truth = model::MaskTruth::current;
 
@@ -57,6 +59,9 @@ struct PpoConfig {
         Setting{"gradient_norm", &C::gradient_norm, "largest norm of the gradient", 1e-6, 1e6},
         Setting{"advantage_floor", &C::advantage_floor,
                 "least standard deviation by which advantages are divided", 0, 100},
+        Setting{"focus_start", &C::focus_start,
+                "share of the frames after which the product gaze begins to focus", 0, 1},
+        Setting{"focus_end", &C::focus_end, "and has focused", 0, 1},
         Setting{"mask_coefficient", &C::mask_coefficient, "weight of L_TA", 0, 100},
         Setting{
             "mask_truth", &C::mask_truth,

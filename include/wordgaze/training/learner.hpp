@@ -86,6 +86,12 @@ class Learner {
     adam_ = std::move(adam);
     agent_->refresh(weights_, *team_);
   }
+  /// How far the gaze has focused, if the agent has one that does.
+  void set_focus(double focus) {
+    if constexpr (requires { agent_->set_focus(weights_.params, focus); }) {
+      if (agent_->set_focus(weights_.params, focus)) agent_->refresh(weights_, *team_);
+    }
+  }
   /// Another term of the loss, beside those that it has.
   void add_loss(std::unique_ptr<Loss> loss) { losses_.push_back(std::move(loss)); }
   const Losses& losses() const { return losses_; }
@@ -129,7 +135,7 @@ class Learner {
       k.batch.gather(agent_->config, rollout, own, scale);
       const auto& x = k.batch.frames;
       const auto& missions = k.batch.missions;
-      if (k.text.cols() < missions.size()) k.text.resize(agent_->config.text_size, missions.size());
+      if (k.text.cols() < missions.size()) k.text.resize(model::mission_features(agent_->config), missions.size());
       agent_->encode_text(weights_, missions, k.cache, k.text);
       agent_->forward(weights_, x, missions, k.text, k.cache, k.outputs);
       if (k.gradient.logits.cols() != x.shape.columns()) {

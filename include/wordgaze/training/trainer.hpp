@@ -58,6 +58,9 @@ class RecentOutcomes {
   std::deque<Outcome> outcomes_;
 };
 
+/// How far the gaze has focused after so many frames, in [0, 1].
+double focus_at(const TrainConfig& config, std::int64_t frames);
+
 /// Learning rates and entropy bonus after so many frames.
 Rates rates_at(const TrainConfig& config, std::int64_t frames);
 
@@ -165,6 +168,7 @@ class BasicTrainer {
 template <class Agent>
 Metrics BasicTrainer<Agent>::update(policy::Observer* observer) {
   const auto begin = std::chrono::steady_clock::now();
+  learner_.set_focus(focus_at(config_, frames_));
   team_.run([&](int w) {
     groups_[static_cast<std::size_t>(w)]->collect(curriculum_, rollout_,
                                                   w == 0 ? observer : nullptr);
