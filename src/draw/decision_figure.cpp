@@ -202,16 +202,16 @@ class Figure {
   /// Those that the agent does not see too, and the one in its hand.
   void mark_targets_in_world(double x, double cell) {
     const grid::World& world = scene_.world;
+    const grid::Object& carried = world.object(world.carried);
+    const auto target = [&](const grid::Object& object) {
+      return evaluation::role_of(object.type, object.color, scene_.progress) ==
+             evaluation::Role::target;
+    };
     bool found = false;
     for (int column = 0; column < world.grid.width(); ++column) {
       for (int row = 0; row < world.grid.height(); ++row) {
         const grid::Position p = grid::at(column, row);
-        const grid::Object& object =
-            p == world.agent ? world.object(world.carried) : world.object_at(p);
-        if (evaluation::role_of(object.type, object.color, scene_.progress) !=
-            evaluation::Role::target) {
-          continue;
-        }
+        if (!target(world.object_at(p)) && !(p == world.agent && target(carried))) continue;
         canvas_.frame(x + column * cell, panels_y_ + row * cell, cell,
                       cell < 20 ? kSmallFrame : kFrame, kTarget);
         found = true;

@@ -4,7 +4,10 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <set>
 #include <vector>
 
 #include "draw/color_map.hpp"
@@ -142,7 +145,26 @@ TEST_F(DecisionFigure, FramesTargetsInTheWorldAndInEveryView) {
   const long in_the_world = pixels_of(draw(), kTarget);
   EXPECT_GT(in_the_world, 0);
   EXPECT_GT(without_maps, in_the_world);
-  EXPECT_GT(everywhere, without_maps);
+  EXPECT_GT(everywhere - without_maps, 500 + 100 * 5);  // around the cell of M and those of 5 words
+}
+
+TEST_F(DecisionFigure, SaysHowTheViewIsTurned) {
+  grid::World world = env_.world();
+  // The line below the view, which does not depend on what stands in the panels.
+  const auto line = [&](grid::Direction direction) {
+    world.direction = direction;
+    const Image figure = decision_figure(step_, {world, env_.sentence(), progress_, env_.id()});
+    std::vector<std::uint8_t> bytes;
+    for (int y = 424; y < 444; ++y) {
+      bytes.insert(bytes.end(), figure.pixel(352, y), figure.pixel(640, y));
+    }
+    return bytes;
+  };
+  std::set<std::vector<std::uint8_t>> lines;
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    lines.insert(line(grid::turned(grid::Direction::right, quarter)));
+  }
+  EXPECT_EQ(lines.size(), 4);
 }
 
 TEST_F(DecisionFigure, ShowsTheMaskOnlyWhenItDimsAWord) {
