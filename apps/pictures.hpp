@@ -22,13 +22,13 @@ class Painter final : public policy::Observer {
 
   int pictures() const { return pictures_; }
 
-  /// Before each step: the world as it is, and whether a target is in view.
+  /// Before each step: the world and the progress as they are, and whether a target is in view.
   void before_step(bool target_in_view) {
     before_ = environment_->world();
     comes_into_view_ = target_in_view && !seen_;
     seen_ = seen_ || target_in_view;
-    const babyai::Progress progress = environment_->progress();
-    const auto completion = progress.completion();
+    progress_ = environment_->progress();
+    const auto completion = progress_.completion();
     completed_ = !std::ranges::equal(completion, completion_);
     completion_.assign(completion.begin(), completion.end());
   }
@@ -44,9 +44,10 @@ class Painter final : public policy::Observer {
   void on_step(const policy::StepRecord& step) override {
     const bool last = step.terminated || step.truncated;
     if (step.step > 0 && !comes_into_view_ && !completed_ && !last) return;
-    const auto image = draw::decision_figure(
-        step,
-        {.world = before_, .sentence = environment_->sentence(), .env_id = environment_->id()});
+    const auto image = draw::decision_figure(step, {.world = before_,
+                                                    .sentence = environment_->sentence(),
+                                                    .progress = progress_,
+                                                    .env_id = environment_->id()});
     draw::write_png(folder_ / fmt::format("episode{:02}-step{:03}.png", episode_, step.step),
                     image);
     ++pictures_;
@@ -56,6 +57,7 @@ class Painter final : public policy::Observer {
   std::filesystem::path folder_;
   const env::Environment* environment_;
   grid::World before_;
+  babyai::Progress progress_;
   std::int64_t episode_ = 0;
   std::vector<std::uint8_t> completion_;  // c_t of the last decision
   bool seen_ = false, comes_into_view_ = false, completed_ = false;

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
+#include <cstdint>
 #include <stdexcept>
+#include <string>
 
 namespace wordgaze::draw {
 
@@ -65,6 +66,13 @@ void Canvas::rectangle(double x, double y, double width, double height, Rgb colo
   cairo_fill(context_.get());
 }
 
+void Canvas::frame(double x, double y, double side, double line, Rgb color) {
+  rectangle(x - line, y - line, side + 2 * line, line, color);
+  rectangle(x - line, y + side, side + 2 * line, line, color);
+  rectangle(x - line, y, line, side, color);
+  rectangle(x + side, y, line, side, color);
+}
+
 void Canvas::image(const Image& image, double x, double y, double side) {
   const std::unique_ptr<cairo_surface_t, Destroy> surface(surface_of(image));
   const double scale = side / std::max(image.width, image.height);
@@ -95,21 +103,6 @@ double Canvas::text_width(std::string_view text, Font font) {
   cairo_text_extents_t extents;
   cairo_text_extents(context_.get(), std::string(text).c_str(), &extents);
   return extents.x_advance;
-}
-
-std::vector<std::string> Canvas::wrapped(std::string_view text, Font font, double width) {
-  std::vector<std::string> lines(1);
-  std::istringstream words{std::string(text)};
-  for (std::string word; words >> word;) {
-    std::string& line = lines.back();
-    const std::string longer = line.empty() ? word : line + " " + word;
-    if (line.empty() || text_width(longer, font) <= width) {
-      line = longer;
-    } else {
-      lines.push_back(word);
-    }
-  }
-  return lines;
 }
 
 Image Canvas::finished() const {

@@ -2,21 +2,13 @@
 #include <cairo.h>
 
 #include <memory>
-#include <string>
 #include <string_view>
-#include <vector>
 
+#include "palette.hpp"
 #include "wordgaze/draw/image.hpp"
 
 /// What figures are drawn with: Cairo on a white sheet, in pixels from the top left.
 namespace wordgaze::draw {
-
-inline constexpr Rgb kWhite{255, 255, 255};
-inline constexpr Rgb kInk{28, 30, 36};
-inline constexpr Rgb kSoftInk{105, 110, 122};
-inline constexpr Rgb kFaint{222, 225, 231};
-inline constexpr Rgb kAccent{200, 60, 90};
-inline constexpr Rgb kCalm{76, 110, 160};
 
 enum class Align { left, center, right };
 struct Font {
@@ -29,14 +21,14 @@ class Canvas {
   Canvas(int width, int height);
 
   void rectangle(double x, double y, double width, double height, Rgb color);
+  /// Four lines of width `line` around a square; they lie outside of it.
+  void frame(double x, double y, double side, double line, Rgb color);
   /// As large as fits a square of `side` pixels.
   void image(const Image& image, double x, double y, double side);
   /// `y` is the base line.
   void text(double x, double y, std::string_view text, Font font, Rgb color = kInk,
             Align align = Align::left);
   double text_width(std::string_view text, Font font);
-  /// The words of a text in lines that are no wider than `width`, if the words are not.
-  std::vector<std::string> wrapped(std::string_view text, Font font, double width);
 
   /// The sheet as it is now. Throws std::runtime_error when drawing failed.
   Image finished() const;

@@ -34,4 +34,8 @@ Rgb magma(double value) {
   return mixed;
 }
 
+double place_on_bar(double share) { return share > 0 ? std::sqrt(std::min(share, 1.0)) : 0; }
+
+Rgb heat(double share) { return magma(place_on_bar(share)); }
+
 }  // namespace wordgaze::draw

@@ -224,6 +224,15 @@ Rgb rgb(grid::Color color) {
   return kBlack;
 }
 
+Tile seen_tile(std::span<const std::uint8_t, grid::kImageBytes> image, int x, int y) {
+  const auto cell = image.subspan(static_cast<std::size_t>(x * grid::kViewSize + y) * 3, 3);
+  Tile tile{.type = static_cast<grid::Type>(cell[0]),
+            .color = static_cast<grid::Color>(cell[1]),
+            .state = static_cast<grid::DoorState>(cell[2])};
+  if (x == grid::kViewSize / 2 && y == grid::kViewSize - 1) tile.agent = grid::Direction::up;
+  return tile;
+}
+
 Image render(const Tile& tile, int size) {
   require(size > 0, "render: expected a tile of at least one pixel; came {}", size);
   Samples samples(size);
@@ -275,12 +284,8 @@ Image TileRenderer::view(std::span<const std::uint8_t, grid::kImageBytes> image,
   Image frame(grid::kViewSize * tile_size_, grid::kViewSize * tile_size_);
   for (int x = 0; x < grid::kViewSize; ++x) {
     for (int y = 0; y < grid::kViewSize; ++y) {
-      const auto cell = image.subspan(static_cast<std::size_t>(x * grid::kViewSize + y) * 3, 3);
-      Tile here{.type = static_cast<grid::Type>(cell[0]),
-                .color = static_cast<grid::Color>(cell[1]),
-                .state = static_cast<grid::DoorState>(cell[2])};
+      Tile here = seen_tile(image, x, y);
       here.highlight = highlight && here.type != grid::Type::unseen;
-      if (x == grid::kViewSize / 2 && y == grid::kViewSize - 1) here.agent = grid::Direction::up;
       frame.paste(tile(here), x * tile_size_, y * tile_size_);
     }
   }

@@ -9,6 +9,8 @@ bool fits(const babyai::Description& description, Type type, grid::Color color) 
   return description.type.value_or(type) == type && description.color.value_or(color) == color;
 }
 
+}  // namespace
+
 Role role_of(Type type, grid::Color color, const babyai::Progress& progress) {
   if (type == Type::unseen) return Role::unseen;
   if (type == Type::empty || type == Type::floor) return Role::empty;
@@ -22,8 +24,6 @@ Role role_of(Type type, grid::Color color, const babyai::Progress& progress) {
   }
   return role;
 }
-
-}  // namespace
 
 Roles roles_of(std::span<const std::uint8_t, grid::kImageBytes> image,
                const babyai::Progress& progress) {

@@ -28,5 +28,17 @@ TEST(Magma, TakesAnyNumber) {
   EXPECT_EQ(magma(std::nan("")), magma(0));
 }
 
+TEST(Heat, IsTheSquareRootOnTheBar) {
+  EXPECT_EQ(heat(0), magma(0));
+  EXPECT_EQ(heat(0.25), magma(0.5));
+  EXPECT_EQ(heat(1), magma(1));
+}
+
+TEST(Heat, TakesAnyNumber) {
+  EXPECT_EQ(heat(-1), heat(0));
+  EXPECT_EQ(heat(7), heat(1));
+  EXPECT_EQ(heat(std::nan("")), heat(0));
+}
+
 }  // namespace
 }  // namespace wordgaze::draw

@@ -1,4 +1,9 @@
 #pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "wordgaze/grid/cell.hpp"
 #include "wordgaze/grid/observation.hpp"
 
 /// Views with known answers.

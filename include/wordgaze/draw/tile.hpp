@@ -28,6 +28,9 @@ struct Tile {
   auto operator<=>(const Tile&) const = default;
 };
 
+/// What the agent sees at (x, y) of its view; it stands in its own cell itself.
+Tile seen_tile(std::span<const std::uint8_t, grid::kImageBytes> image, int x, int y);
+
 /// The tile in `size` x `size` pixels: shapes sampled 3 x 3 times a pixel, then averaged. Throws
 /// std::invalid_argument for a size that is not positive.
 Image render(const Tile& tile, int size);

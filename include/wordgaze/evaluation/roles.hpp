@@ -32,9 +32,12 @@ constexpr bool is_object(grid::Type type) {
   return type >= grid::Type::door && type <= grid::Type::box;
 }
 
+/// What a thing is by its looks: places such as "on your left" are not asked for.
+Role role_of(grid::Type type, grid::Color color, const babyai::Progress& progress);
+
 using Roles = std::array<Role, grid::kViewCells>;
 
-/// The 49 cells by their looks: places such as "on your left" are not asked for.
+/// The roles of the 49 cells.
 Roles roles_of(std::span<const std::uint8_t, grid::kImageBytes> image,
                const babyai::Progress& progress);
 
