@@ -27,11 +27,21 @@ VARIANTS = {
     "task_attention": {"attention": True, "task_attention": True, "gaze_exponent": 2,
                        "entropy_base": 49},
     "attention_3x3": {"attention": True, "encoder": "3x3"},
+    "product": {"attention": True, "gaze": "product", "gaze_floor": 0.1, "entropy_base": math.e},
+    "product_focused": {"attention": True, "gaze": "product", "gaze_floor": 0.2, "focus": 1,
+                        "entropy_base": 3},
+    "product_task_sum": {"attention": True, "gaze": "product", "gaze_floor": 0.1,
+                         "task_attention": True},
+    "product_task_scan": {"attention": True, "gaze": "product", "gaze_floor": 0.1,
+                          "task_attention": True, "task_reader": "scan", "score_cost": 0.02},
     "baseline_3x3": {"attention": False, "encoder": "3x3"},
 }
 # Ids of the vocabulary: "go to the red ball", "pick up the blue key, then go to the grey box".
 MISSIONS = [[18, 47, 45, 40, 7], [36, 50, 45, 9, 24, 1, 46, 18, 47, 45, 21, 10]]
 STEPS, LANES = 3, 2
+# What can lie in a cell of a room without doors.
+OBJECTS = [(kind, color, 0) for kind in range(5, 8) for color in range(COLORS)]
+LONGEST = 73  # words, of the mask of a reader that scans
 
 
 def gaussian(choice, *shape, scale=0.6):
@@ -52,10 +62,14 @@ def random_parameters(choice, config):
     shapes |= {"words": (e, VOCABULARY)}
     if config["attention"]:
         shapes |= {"attention.query": (d, e), "attention.key": (d, c)}
+        if config["gaze"] == "product":
+            shapes |= {"attention.silent": (c,), "attention.focus": (1,)}
     shapes |= {"memory.input_weight": (4 * h, VIEW * VIEW * c), "memory.hidden_weight": (4 * h, h),
                "memory.bias": (4 * h,), "text.input_weight": (3 * g, e),
                "text.hidden_weight": (3 * g, g), "text.bias": (3 * g,), "text.candidate_bias": (g,)}
-    if config["task_attention"]:
+    if config["task_attention"] and config["task_reader"] == "scan":
+        shapes |= {"task.scan.words": (4, VOCABULARY), "task.scan.rules": (3,)}
+    elif config["task_attention"]:
         shapes |= {"task.hidden.weight": (task, e + config["clauses"]), "task.hidden.bias": (task,),
                    "task.output.weight": (config["task_words"], task),
                    "task.output.bias": (config["task_words"],)}
@@ -65,6 +79,8 @@ def random_parameters(choice, config):
     # Large scores: maps that differ, and word weights with them.
     parameters = {name: gaussian(choice, *shape, scale=1.6 if name.startswith("attention") else 0.6)
                   for name, shape in shapes.items()}
+    if "attention.focus" in parameters:
+        parameters["attention.focus"] = [float(config["focus"])]
     return parameters
 
 
@@ -100,34 +116,110 @@ def encode_view(p, config, image):
     return view.flatten(2)[0]
 
 
-def encode_text(p, mission):
+def encode_text(p, mission, mask):
+    """The state of the GRU, changed by each word as far as it is bright."""
     h = torch.zeros(1, SIZES["text_size"])
     bias = torch.cat([torch.zeros(2 * SIZES["text_size"]), p["text.candidate_bias"]])
-    for word in F.embedding(torch.tensor(mission), p["words"].T):
-        h = torch.gru_cell(word[None], h, p["text.input_weight"], p["text.hidden_weight"],
-                           p["text.bias"], bias)
+    for word, bright in zip(F.embedding(torch.tensor(mission), p["words"].T), mask):
+        read = torch.gru_cell(word[None], h, p["text.input_weight"], p["text.hidden_weight"],
+                              p["text.bias"], bias)
+        h = h + bright * (read - h)
     return h[0]
 
 
-def filter_view(p, config, view, mission, completion):
+def say(p, config):
+    """What each word of the vocabulary says of each object [18, V], and the scores of nowhere [V]."""
+    codes = torch.cat([encode_view(p, config, [code] * VIEW * VIEW)[:, :1] for code in OBJECTS], dim=1)
+    queries = p["attention.query"] @ p["words"]
+    raw = (p["attention.key"] @ codes).T @ queries / math.sqrt(config["key_size"])
+    table = raw.view(3, COLORS, VOCABULARY)
+    everywhere = table.mean((0, 1), keepdim=True)
+    effects = [(table.mean(1, keepdim=True) - everywhere).expand_as(table),
+               (table.mean(0, keepdim=True) - everywhere).expand_as(table)]
+    sizes = torch.stack([e.square().mean((0, 1)).sqrt() for e in effects]).detach()
+    power = (sizes / sizes.max()) ** config["word_choice"]
+    kept = power / (power.sum(0) + config["quiet_word"] ** config["word_choice"])
+    focus = config["focus"]
+    said = sum((1 - focus * (1 - k)) * e for k, e in zip(kept, effects)).reshape(-1, VOCABULARY)
+    return said, config["nowhere"] * said.max(0).values
+
+
+def geometric(start, end, focus):
+    return start * (end / start) ** focus
+
+
+def look(p, config, image, view, mission):
+    """Log maps [words, 50] over cells and nowhere, and what the silent word says of them [50]."""
+    said, nowhere = say(p, config)
+    scores = torch.zeros(len(mission), VIEW * VIEW + 1)
+    for i, word in enumerate(mission):
+        for cell, code in enumerate(image):
+            if tuple(code) in OBJECTS:
+                scores[i, cell] = said[OBJECTS.index(tuple(code)), word]
+        scores[i, -1] = nowhere[word]
+    beta = geometric(config["sharpness_start"], config["sharpness"], config["focus"])
+    silent = torch.cat([p["attention.silent"] @ view, torch.zeros(1)])
+    return torch.log_softmax(beta * scores, dim=1), silent
+
+
+def scan(p, mission, completion):
+    """Logits of the mask, word by word in both directions."""
+    gates = p["task.scan.words"][:, mission]
+    move, wait, turn = gates[:3].sigmoid()
+    places = torch.eye(len(completion) + 1)[0]
+    undone, held = [], []
+    before = waits = torch.zeros(())
+    for j in range(len(mission)):
+        shifted = torch.cat([torch.zeros(1), places[:-1]])
+        places = places + move[j] * (shifted - places)
+        left = undone[-1] if undone else torch.zeros(())
+        before = (1 - turn[j]) * (1 - (1 - before) * (1 - move[j] * left))
+        waits = (1 - turn[j]) * (waits + wait[j] * (before - waits))
+        undone.append(1 - places[:-1] @ torch.tensor(completion, dtype=torch.float64))
+        held.append(waits)
+    turned, behind, first = torch.zeros(()), torch.zeros(()), []
+    for j in reversed(range(len(mission))):
+        first.insert(0, turned)
+        behind = 1 - (1 - behind) * (1 - undone[j])
+        turned = 1 - (1 - turned) * (1 - turn[j] * behind)
+    facts = torch.stack([1 - torch.stack(undone), torch.stack(held), torch.stack(first)])
+    return gates[3] - p["task.scan.rules"] @ facts
+
+
+def filter_view(p, config, image, view, mission, completion):
     """The filtered view F [C, 49], and what made it; view is O~ [C, 49]."""
     if not config["attention"]:
         return view, {}
+    product = config["gaze"] == "product"
     words = F.embedding(torch.tensor(mission), p["words"].T)
     queries = F.linear(words, p["attention.query"])
     keys = F.linear(view.T, p["attention.key"])
-    maps = torch.softmax(queries @ keys.T / math.sqrt(config["key_size"]), dim=1)
-    entropy = -(maps * maps.log()).sum(1) / math.log(config["entropy_base"])
+    logs = torch.log_softmax(queries @ keys.T / math.sqrt(config["key_size"]), dim=1)
+    if product:
+        logs, silent = look(p, config, image, view, mission)
+    maps = logs.exp()
+    entropy = -(maps * logs).sum(1) / math.log(config["entropy_base"])
     weights = torch.softmax(-entropy, dim=0)
-    seen = {"maps": maps, "entropy": entropy, "weights": weights}
-    if config["task_attention"]:
+    seen = {"maps": maps[:, :VIEW * VIEW], "entropy": entropy, "weights": weights}
+    if config["task_attention"] and config["task_reader"] == "scan":
+        logits = scan(p, mission, completion)
+        seen["alpha"] = logits.sigmoid()
+        # Behind the end of the mission nothing is asked.
+        seen["mask_logits"] = torch.cat([logits, torch.zeros(LONGEST - len(mission))])
+    elif config["task_attention"]:
         x = torch.cat([weights @ words, torch.tensor(completion, dtype=torch.float64)])
         x = F.linear(x, p["task.hidden.weight"], p["task.hidden.bias"]).relu()
         seen["mask_logits"] = F.linear(x, p["task.output.weight"], p["task.output.bias"])
         seen["alpha"] = seen["mask_logits"].sigmoid()[:len(mission)]
+    if config["task_attention"]:
         weights = seen["alpha"] * weights
-    gaze = weights @ maps
     floor = config["gaze_floor"]
+    if product:
+        gaze = torch.softmax(weights @ logs / (weights.sum() + 1e-6) + silent, dim=0)
+        cells, nowhere = gaze[:-1], gaze[-1]
+        scale = floor + (1 - floor) * cells / (cells + nowhere)
+        return view * scale, seen | {"gaze": cells, "scale": scale}
+    gaze = weights @ maps
     scale = floor + (1 - floor) * (gaze / (gaze.max() + 1e-6)) ** config["gaze_exponent"]
     return view * scale, seen | {"gaze": gaze, "scale": scale}
 
@@ -143,11 +235,13 @@ def run_lane(p, config, frames, h, c):
         h, c = h * frame["keep"], c * frame["keep"]
         mission = MISSIONS[frame["mission"]]
         view = encode_view(p, config, frame["image"])
-        filtered, seen = filter_view(p, config, view, mission, frame["completion"])
+        filtered, seen = filter_view(p, config, frame["image"], view, mission, frame["completion"])
         h, c = (s[0] for s in torch.lstm_cell(
             filtered.T.reshape(1, -1), (h[None], c[None]), p["memory.input_weight"],
             p["memory.hidden_weight"], p["memory.bias"], torch.zeros_like(p["memory.bias"])))
-        features = torch.cat([h, encode_text(p, mission)])
+        masked = config["task_attention"] and config["task_reader"] == "scan"
+        mask = seen["alpha"] if masked else torch.ones(len(mission))
+        features = torch.cat([h, encode_text(p, mission, mask)])
         yield {"logits": head(p, "actor", features), "value": head(p, "critic", features)[0],
                "h": h, "c": c} | seen
 
@@ -163,14 +257,22 @@ def numbers(value):
 
 def make(name, variant):
     config = SIZES | {"task_attention": False, "gaze_exponent": 2, "gaze_floor": 0,
-                      "entropy_base": 49, "encoder_leak": 0.1, "encoder": "1x1"} | variant
+                      "entropy_base": 49, "encoder_leak": 0.1, "encoder": "1x1", "gaze": "sum",
+                      "task_reader": "sum", "focus": 0.6, "sharpness_start": 1, "sharpness": 3,
+                      "nowhere": 0.45, "word_choice": 3, "quiet_word": 0.3,
+                      "score_cost": 0} | variant
     choice = random.Random(f"{SEED} {name}")
     given = random_parameters(choice, config)
     frames = [random_frame(choice, config, t, b) for t in range(STEPS) for b in range(LANES)]
     start = {k: gaussian(choice, LANES, config["memory_size"]) for k in ("h", "c")}
     asked = {"logits": gaussian(choice, len(frames), ACTIONS), "value": gaussian(choice, len(frames))}
     if config["task_attention"]:
-        asked["mask_logits"] = gaussian(choice, len(frames), config["task_words"])
+        words = LONGEST if config["task_reader"] == "scan" else config["task_words"]
+        asked["mask_logits"] = gaussian(choice, len(frames), words)
+        if config["task_reader"] == "scan":
+            for row, frame in zip(asked["mask_logits"], frames):
+                length = len(MISSIONS[frame["mission"]])
+                row[length:] = [0] * (words - length)
 
     p = {key: torch.tensor(value, requires_grad=True) for key, value in given.items()}
     results = [None] * len(frames)  # time-major, like the frames
@@ -179,6 +281,8 @@ def make(name, variant):
         results[b::LANES] = run_lane(p, config, frames[b::LANES], h, c)
     loss = sum((torch.stack([r[key] for r in results]) * torch.tensor(weight)).sum()
                for key, weight in asked.items())
+    if config["score_cost"] > 0:  # start and end are the same
+        loss = loss + config["score_cost"] / 2 * say(p, config)[0].square().sum()
     loss.backward()
     for r in results:
         r.pop("mask_logits", None)
@@ -187,7 +291,8 @@ def make(name, variant):
             "parameters": given, "frames": frames, "start": start, "asked": asked,
             "loss": numbers(loss.item()),
             "results": [{k: numbers(v) for k, v in r.items()} for r in results],
-            "gradients": {key: numbers(leaf.grad) for key, leaf in p.items()}}
+            "gradients": {key: numbers(leaf.grad) for key, leaf in p.items()
+                          if leaf.grad is not None}}
 
 
 def main():

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <string>
 #include <utility>
 
@@ -35,6 +36,11 @@ inline model::Config small_config() {
   c.task_words = 14;
   c.sub_tasks = 2;
   c.encoder_leak = 0.1;
+  // The choice of a word is not differentiated; without a contest there is none to leave out.
+  c.word_choice = 0;
+  c.sharpness_start = 1;
+  c.sharpness = 3;
+  c.score_cost_start = c.score_cost = 0;
   return c;
 }
 
@@ -58,11 +64,11 @@ struct AgentFixture {
     for (auto* bias : {&params.vision.cells.bias, &params.vision.patches.first.bias})
       bias->array() += S(1);
     frames.resize(config, shape);
-    missions.index_of(sentence("go to the red ball"));
-    missions.index_of(sentence("pick up the blue key , then go to the grey box"));
-    missions.index_of(sentence("open the door"));
+    const std::array sentences{sentence("go to the red ball"),
+                               sentence("pick up the blue key , then go to the grey box"),
+                               sentence("open the door")};
+    if (params.attention.focus.size() > 0) params.attention.focus(0) = S(0.7);
     for (Index n = 0; n < shape.columns(); ++n) {
-      frames.mission_of[static_cast<std::size_t>(n)] = static_cast<int>(n) % missions.size();
       for (Index c = 0; c < grid::kViewCells; ++c) {
         // Mostly a few kinds, as in a real view, so that counts above one occur.
         const auto draw = static_cast<int>(generator()() % 100);
@@ -72,6 +78,11 @@ struct AgentFixture {
       for (Index i = 0; i < config.sub_tasks; ++i) {
         frames.completion(i, n) = static_cast<S>((n + i) % 2);
       }
+      model::Mission mission{sentences[static_cast<std::size_t>(n) % sentences.size()], {}};
+      for (std::size_t i = 0; model::scans(config) && i < 2; ++i) {
+        mission.done[i] = frames.completion(static_cast<Index>(i), n) > 0;
+      }
+      frames.mission_of[static_cast<std::size_t>(n)] = missions.index_of(mission);
     }
     frames.keep(0, frames.shape.column(1, 1)) = 0;
     randomize(frames.start.h, 0.5);
@@ -83,7 +94,7 @@ struct AgentFixture {
     forward_frames();
   }
   void forward_frames() {
-    text.resize(agent.config.text_size, missions.size());
+    text.resize(model::mission_features(agent.config), missions.size());
     agent.encode_text(weights, missions, cache, text);
     agent.forward(weights, frames, missions, text, cache, outputs);
   }
@@ -110,6 +121,10 @@ struct AgentFixture {
     randomize(asked.logits);
     randomize(asked.values);
     randomize(asked.mask, 0.3);
+    // A scan has no logits behind the end of a mission.
+    for (Index i = 0; model::scans(agent.config) && i < n; ++i) {
+      asked.mask.col(i).tail(asked.mask.rows() - missions[frames.mission(i)].length).setZero();
+    }
     return asked;
   }
 

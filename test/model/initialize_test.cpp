@@ -5,8 +5,21 @@
 namespace wordgaze::model {
 namespace {
 
-TEST(Initialize, EveryWordPrefersObjectsByThePrior) {
+TEST(Initialize, TheSilentWordPrefersObjectsByThePrior) {
   Config config;
+  config.object_prior = 3;
+  const Agent<double> agent{config, CellAlphabet::everything()};
+  core::Rng rng(1);
+  const auto weights = agent.make_weights(agent.initialize(rng));
+  for (int k = 0; k < agent.alphabet.size(); ++k) {
+    const bool object = agent.alphabet[k].type >= 5 && agent.alphabet[k].type <= 7;
+    EXPECT_NEAR(weights.tables.vision.cells.scores(k, kSilentWord), object ? 3 : 0, 1e-12);
+  }
+}
+
+TEST(Initialize, InTheSumEveryWordPrefersObjectsByThePrior) {
+  Config config;
+  config.gaze = Gaze::sum;
   config.object_prior = 3;
   const Agent<double> agent{config, CellAlphabet::everything()};
   core::Rng rng(1);
@@ -33,9 +46,12 @@ TEST(Initialize, TheSameStreamGivesTheSameWeights) {
 TEST(Initialize, AllWordsAreBrightAtFirst) {
   Config config;
   config.task_attention = true;
-  const Agent<float> agent{config, CellAlphabet::one_room()};
   core::Rng rng(1);
-  EXPECT_EQ(agent.initialize(rng).task.output.bias.minCoeff(), 2);
+  const Agent<float> scans{config, CellAlphabet::one_room()};
+  EXPECT_EQ(scans.initialize(rng).task.scan.words.row(3).minCoeff(), 2);
+  config.task_reader = Reader::sum;
+  const Agent<float> sums{config, CellAlphabet::one_room()};
+  EXPECT_EQ(sums.initialize(rng).task.output.bias.minCoeff(), 2);
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ TEST(TaskMask, CurrentKeepsOneSubTaskBright) {
   EXPECT_EQ(bright(MaskTruth::current, Bits{1, 0}, Bits{0, 1}), 0b10);
 }
 
-TEST(TaskMask, JoiningWordsStayBright) {
-  EXPECT_TRUE(is_bright(-1, 0));
+TEST(TaskMask, JoiningWordsAreDark) {
+  EXPECT_FALSE(is_bright(-1, 0b1));
   EXPECT_TRUE(is_bright(1, 0b10));
   EXPECT_FALSE(is_bright(0, 0b10));
 }

@@ -99,6 +99,7 @@ struct Agent : Design {
     typename Vision::Cache vision;
     typename Attention::Cache attention;
     typename Task::Cache task;
+    typename TaskScan<S>::Cache scan;
     typename Memory::Cache memory;
     typename Text::Cache text;
     typename Head<S>::Cache actor, critic;
@@ -140,7 +141,7 @@ struct Agent : Design {
       if (k.mission_mask.cols() != features.cols()) {
         k.mission_mask.resize(mask_words(config), features.cols());
       }
-      TaskScan<S>::forward(w.params.task.scan, missions, k.mission_mask);  // (T4)-(T10)
+      TaskScan<S>::forward(w.params.task.scan, missions, k.scan, k.mission_mask);  // (T4)-(T10)
       features.bottomRows(mask_words(config)) = k.mission_mask;
       mask = &k.mission_mask;
     }
@@ -288,7 +289,7 @@ void Agent<S, V, A>::attend_backward(const Weights& w, const Frames<S>& x, const
     }
     const auto alpha = k.mission_mask.array();
     k.dmission_logits.array() += k.dmission_mask.array() * alpha * (S(1) - alpha);
-    TaskScan<S>::backward(p.task.scan, missions, k.dmission_logits, dp.task.scan);
+    TaskScan<S>::backward(p.task.scan, missions, k.dmission_logits, k.scan, dp.task.scan);
   } else if (config.task_attention) {
     Task::backward(config, p.task, p.words, k.attention.weights, x, missions, y.mask, k.dalpha,
                    dy.mask, k.task, dp.task, k.attention.dweights, dp.words);

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <string_view>
 #include <tuple>
@@ -54,11 +55,12 @@ struct Config {
   double object_prior = 2;  ///< initial score of objects over other cells; 0: none
   // Of the product:
   double sharpness_start = 4;  ///< of the words' maps: their inverse temperature, at first
-  double sharpness = 40;       ///< and when the gaze has focused
+  double sharpness = 32;       ///< and when the gaze has focused
   double nowhere = 0.45;       ///< score of nowhere, as a share of a word's best match
   double word_choice = 8;      ///< exponent of the contest between what a word says
   double quiet_word = 0.3;     ///< size below which a word says nothing, as a share of the largest
-  double score_cost = 1e-6;    ///< weight of the squared scores in the loss, until the gaze focuses
+  double score_cost_start = 1e-6;  ///< weight of half the squared scores in the loss, at first
+  double score_cost = 1e-7;        ///< and when the gaze has focused
   // Of the sum:
   double gaze_exponent = 2;  ///< p in s(M) = f + (1 - f) (M / max M)^p
   double encoder_bias = 1;   ///< initial bias of the visual encoder: near-linear at the start
@@ -109,8 +111,9 @@ struct Config {
                 "product: size of what a word says, as a share of the largest of the vocabulary, "
                 "below which it falls silent",
                 0, 1},
-        Setting{"score_cost", &C::score_cost,
-                "product: weight of the squared scores in the loss, until the gaze focuses", 0, 1},
+        Setting{"score_cost_start", &C::score_cost_start,
+                "product: weight of half the squared scores in the loss, at the start", 0, 1},
+        Setting{"score_cost", &C::score_cost, "product: and when the gaze has focused", 0, 1},
         Setting{"gaze_exponent", &C::gaze_exponent,
                 "sum: p in s(M) = f + (1 - f) (M / max M)^p", 1, 16},
         Setting{"encoder_bias", &C::encoder_bias,
@@ -124,6 +127,11 @@ struct Config {
 
   bool operator==(const Config&) const = default;
 };
+
+/// From its value at the start to the one at full focus, by equal factors.
+inline double focused(double start, double end, double focus) {
+  return start > 0 && end > 0 ? start * std::pow(end / start, focus) : focus < 1 ? start : end;
+}
 
 /// The Task Attention Module reads the mission once for each completion vector, apart from the view.
 inline bool scans(const Config& c) { return c.task_attention && c.task_reader == Reader::scan; }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <concepts>
+#include <limits>
 
 #include "wordgaze/core/types.hpp"
 #include "wordgaze/grid/cell.hpp"
@@ -19,7 +20,7 @@ namespace wordgaze::model {
 /// to avoid balls where red balls are never named. And a word scores nowhere by how well it could be
 /// matched: what matches less is not in view.
 ///
-/// shapes   raw [codes, V], scores [codes + 1, V]: the last row is nowhere
+/// shapes   scores [codes + 1, V]: the last row is nowhere
 template <std::floating_point S>
 struct Lexicon {
   static constexpr int kAttributes = 2;  ///< type, color
@@ -27,6 +28,8 @@ struct Lexicon {
   struct Tables {
     std::array<Matrix<S>, kAttributes> projector;  // [codes, codes] onto what an attribute says
     std::array<Matrix<S>, kAttributes> effect;     // [codes, V] of the raw scores
+    std::array<Matrix<S>, kAttributes> scratch;    // [codes, V]
+    std::array<Vector<S>, kAttributes> size;       // [V] of an effect
     Matrix<S> share;                               ///< [kAttributes, V] how much of it counts
     Eigen::Array<Index, Eigen::Dynamic, 1> best;   ///< [V] the code that matches a word best
     Index objects = 0;                             ///< codes that are objects
@@ -39,7 +42,10 @@ struct Lexicon {
     t.objects = count(codes, [](const auto&) { return true; });
     for (int a = 0; a < kAttributes; ++a) {
       t.projector[a].setZero(codes.size(), codes.size());
-      t.effect[a].setZero(codes.size(), babyai::kVocabularySize);
+      for (auto* m : {&t.effect[a], &t.scratch[a]}) {
+        m->setZero(codes.size(), babyai::kVocabularySize);
+      }
+      t.size[a].setZero(babyai::kVocabularySize);
       for (int i = 0; i < codes.size(); ++i) {
         if (!is_object(codes[i])) continue;
         const auto alike = [&](const CellAlphabet::Code& other) {
@@ -55,31 +61,34 @@ struct Lexicon {
     }
   }
 
-  /// `focus` in [0, 1]: how far words have chosen.
-  static void forward(const Config& c, S focus, In<S> raw, Tables& t, Out<S> scores) {
-    for (int a = 0; a < kAttributes; ++a) t.effect[a].noalias() = t.projector[a] * raw;
+  /// On entry the first rows of scores are raw. `focus` in [0, 1]: how far words have chosen.
+  static void forward(const Config& c, S focus, Tables& t, Out<S> scores) {
+    const Index codes = scores.rows() - 1;
+    for (int a = 0; a < kAttributes; ++a) {
+      t.effect[a].noalias() = t.projector[a] * scores.topRows(codes);
+    }
     choose(c, focus, t);
-    const Index codes = raw.rows();
     auto spoken = scores.topRows(codes);
     spoken = t.effect[0] * t.share.row(0).asDiagonal();
     spoken += t.effect[1] * t.share.row(1).asDiagonal();
-    for (Index v = 0; v < raw.cols(); ++v) {
+    for (Index v = 0; v < scores.cols(); ++v) {
       scores(codes, v) = static_cast<S>(c.nowhere) * spoken.col(v).maxCoeff(&t.best(v));
     }
   }
   /// From the gradient of the scores to that of raw, in the place of its first rows. The choice of
   /// an attribute is not differentiated.
-  static void backward(const Config& c, const Tables& t, Out<S> dscores) {
+  static void backward(const Config& c, const Tables& t, Tables& dt, Out<S> dscores) {
     const Index codes = t.projector[0].rows();
     for (Index v = 0; v < dscores.cols(); ++v) {
       dscores(t.best(v), v) += static_cast<S>(c.nowhere) * dscores(codes, v);
     }
     auto dspoken = dscores.topRows(codes);
     // Projectors are symmetric.
-    const Matrix<S> type = dspoken * t.share.row(0).asDiagonal();
-    const Matrix<S> color = dspoken * t.share.row(1).asDiagonal();
-    dspoken.noalias() = t.projector[0] * type;
-    dspoken.noalias() += t.projector[1] * color;
+    for (int a = 0; a < kAttributes; ++a) {
+      dt.scratch[a] = dspoken * t.share.row(a).asDiagonal();
+    }
+    dspoken.noalias() = t.projector[0] * dt.scratch[0];
+    dspoken.noalias() += t.projector[1] * dt.scratch[1];
   }
 
   /// What words tell apart.
@@ -98,25 +107,26 @@ struct Lexicon {
 
   /// A contest of sizes: n_a^k against that of the other attribute and of a quiet word.
   static void choose(const Config& c, S focus, Tables& t) {
-    using Row = Eigen::Array<S, 1, Eigen::Dynamic>;
-    std::array<Row, kAttributes> size;
     S largest = 0;
     for (int a = 0; a < kAttributes; ++a) {
-      size[a] = (t.effect[a].array().square().colwise().sum() / static_cast<S>(t.objects)).sqrt();
-      largest = std::max(largest, size[a].maxCoeff());
+      for (Index v = 0; v < t.size[a].size(); ++v) {
+        t.size[a](v) = std::sqrt(t.effect[a].col(v).squaredNorm() / static_cast<S>(t.objects));
+      }
+      largest = std::max(largest, t.size[a].maxCoeff());
     }
     if (!(largest > S(0))) {
       t.share.setOnes();
       return;
     }
-    const auto power = [&](const Row& n) -> Row {
-      return (n / largest).pow(static_cast<S>(c.word_choice));
-    };
-    const Row type = power(size[0]), color = power(size[1]);
-    const auto quiet = static_cast<S>(std::pow(c.quiet_word, c.word_choice));
-    const Row sum = type + color + quiet + static_cast<S>(1e-12);
-    t.share.row(0) = S(1) - focus * (S(1) - type / sum);
-    t.share.row(1) = S(1) - focus * (S(1) - color / sum);
+    const auto power = [&](S n) { return std::pow(n, static_cast<S>(c.word_choice)); };
+    const S quiet = power(static_cast<S>(c.quiet_word));
+    for (Index v = 0; v < t.share.cols(); ++v) {
+      const S type = power(t.size[0](v) / largest), color = power(t.size[1](v) / largest);
+      // What a word has kept of an attribute where the gaze has focused.
+      const S sum = std::max(type + color + quiet, std::numeric_limits<S>::min());
+      t.share(0, v) = S(1) - focus * (S(1) - type / sum);
+      t.share(1, v) = S(1) - focus * (S(1) - color / sum);
+    }
   }
 };
 

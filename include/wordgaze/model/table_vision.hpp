@@ -80,8 +80,7 @@ struct TableVision {
       auto scores = t.scores.topRows(d.alphabet.size());
       scores.noalias() = t.encodings.transpose() * words.probes;
       if (d.config.gaze == Gaze::product) {
-        const Matrix<S> raw = scores.leftCols(kSilentWord);
-        Lexicon<S>::forward(d.config, words.focus, raw, t.lexicon,
+        Lexicon<S>::forward(d.config, words.focus, t.lexicon,
                             t.scores.topLeftCorner(nowhere(d) + 1, kSilentWord));
       }
     }
@@ -184,11 +183,12 @@ struct TableVision {
     if (d.config.attention) {
       auto dscores = dt.scores.topRows(d.alphabet.size());
       if (d.config.gaze == Gaze::product) {
-        // A word says no more than it needs: the scores have a price until the gaze focuses.
-        const auto price = static_cast<S>(d.config.score_cost) * (S(1) - words.focus);
+        // A word says no more than it needs: scores have a price.
+        const auto price = static_cast<S>(focused(
+            d.config.score_cost_start, d.config.score_cost, static_cast<double>(words.focus)));
         dscores.leftCols(kSilentWord) +=
             price * t.scores.topLeftCorner(d.alphabet.size(), kSilentWord);
-        Lexicon<S>::backward(d.config, t.lexicon,
+        Lexicon<S>::backward(d.config, t.lexicon, dt.lexicon,
                              dt.scores.topLeftCorner(nowhere(d) + 1, kSilentWord));
       }
       dwords.probes.noalias() += t.encodings * dscores;

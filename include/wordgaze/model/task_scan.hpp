@@ -52,10 +52,23 @@ struct TaskScan {
     p.rules.setConstant(S(4));
   }
 
+  using Place = std::array<S, kMaxSubTasks>;  ///< in the completion vector
+
+  /// What a word finds out.
+  struct Word {
+    S move, wait, turn;  // gates
+    Place place;         // of its sub-task
+    S undone;            // that sub-task is
+    S before, held;      // something to the left is undone; and this word waits for it
+    S behind, turned;    // something from here on is undone; and comes first
+  };
+  struct Cache {
+    std::vector<Word> words, gradient;  // of one mission
+  };
+
   /// alpha of the words of all missions; behind a mission's end it is 0.
-  static void forward(const Params& p, const Missions& missions, Out<S> masks) {
+  static void forward(const Params& p, const Missions& missions, Cache& k, Out<S> masks) {
     masks.setZero();
-    Tape k;
     for (int m = 0; m < missions.size(); ++m) {
       scan(p, missions[m], k);
       for (std::size_t j = 0; j < k.words.size(); ++j) {
@@ -65,8 +78,8 @@ struct TaskScan {
   }
 
   /// dlogits: gradient of the logits of the masks.
-  static void backward(const Params& p, const Missions& missions, In<S> dlogits, Params& grads) {
-    Tape k;
+  static void backward(const Params& p, const Missions& missions, In<S> dlogits, Cache& k,
+                       Params& grads) {
     for (int m = 0; m < missions.size(); ++m) {
       if (dlogits.col(m).isZero(S(0))) continue;
       scan(p, missions[m], k);
@@ -75,30 +88,16 @@ struct TaskScan {
   }
 
  private:
-  using Place = std::array<S, kMaxSubTasks>;  ///< in the completion vector
-
-  /// What a word finds out.
-  struct Word {
-    S move, wait, turn;         // gates
-    Place place;                // of its sub-task
-    S undone;                   // that sub-task is
-    S before, held;             // something to the left is undone; and this word waits for it
-    S behind, turned;           // something from here on is undone; and comes first
-  };
-  struct Tape {
-    std::vector<Word> words;
-  };
-
   static S sigmoid(S x) { return S(1) / (S(1) + std::exp(-x)); }
   static Index id(const Mission& mission, std::size_t j) { return mission.words[j]; }
 
-  static S logit(const Params& p, const Mission& mission, const Tape& k, std::size_t j) {
+  static S logit(const Params& p, const Mission& mission, const Cache& k, std::size_t j) {
     const Word& w = k.words[j];
     return p.words(3, id(mission, j)) - p.rules(0) * (S(1) - w.undone) - p.rules(1) * w.held -
            p.rules(2) * w.turned;
   }
 
-  static void scan(const Params& p, const Mission& mission, Tape& k) {
+  static void scan(const Params& p, const Mission& mission, Cache& k) {
     const auto length = static_cast<std::size_t>(mission.length);
     k.words.resize(length);
     Word start{};
@@ -130,9 +129,9 @@ struct TaskScan {
 
   template <class Gradient>
   static void scan_backward(const Params& p, const Mission& mission, const Gradient& dlogits,
-                            const Tape& k, Params& grads) {
+                            Cache& k, Params& grads) {
     const std::size_t length = k.words.size();
-    thread_local std::vector<Word> d;
+    auto& d = k.gradient;
     d.assign(length, Word{});
     for (std::size_t j = 0; j < length; ++j) {
       const Word& w = k.words[j];

@@ -252,8 +252,8 @@ struct TextVisualAttention {
   /// Inverse temperature of the maps, (A2).
   static S beta_of(const Config& c, const Tables& t) {
     if (c.gaze == Gaze::sum) return S(1);
-    return static_cast<S>(c.sharpness_start * std::pow(c.sharpness / c.sharpness_start,
-                                                       static_cast<double>(t.focus)));
+    return static_cast<S>(
+        focused(c.sharpness_start, c.sharpness, static_cast<double>(t.focus)));
   }
 
   /// Added to the scores of entries that are not in view.

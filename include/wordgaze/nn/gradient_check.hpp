@@ -41,16 +41,22 @@ void check_leaf(const std::string& name, Leaf& leaf, const Gradient& gradient, L
   }
 }
 
-/// The same over every leaf of a parameter tree.
-template <Tree P, class Loss>
-GradientError check_gradients(P& params, const P& grads, Loss&& loss, double step = 1e-5) {
+/// The same over every leaf of a parameter tree but those for which fixed(path) holds: numbers that
+/// are set, not learned.
+template <Tree P, class Loss, class Fixed>
+GradientError check_gradients(P& params, const P& grads, Loss&& loss, Fixed&& fixed,
+                              double step = 1e-5) {
   GradientError error;
   for_each_parameter(
       [&](const Path& path, auto& leaf, const auto& gradient) {
-        check_leaf(path.str(), leaf, gradient, loss, error, step);
+        if (!fixed(path)) check_leaf(path.str(), leaf, gradient, loss, error, step);
       },
       params, grads);
   return error;
+}
+template <Tree P, class Loss>
+GradientError check_gradients(P& params, const P& grads, Loss&& loss) {
+  return check_gradients(params, grads, loss, [](const Path&) { return false; });
 }
 
 }  // namespace wordgaze::nn

@@ -1,0 +1,77 @@
+#include "wordgaze/model/lexicon.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support.hpp"
+
+/// What words say of things: (A8)-(A11).
+namespace wordgaze::model {
+namespace {
+
+using test::random_matrix;
+
+constexpr int kFirstObject = 3;  // codes of one_room: unseen, empty, wall, then objects
+
+struct LexiconTest : testing::Test {
+  Design design{{}, CellAlphabet::one_room()};
+  Lexicon<double>::Tables tables;
+  Matrix<double> scores = random_matrix<double>(22, babyai::kVocabularySize);
+
+  LexiconTest() { Lexicon<double>::resize(design, tables); }
+  void speak(double focus) { Lexicon<double>::forward(design.config, focus, tables, scores); }
+  int code(int type, int color) const {
+    return design.alphabet.find({static_cast<std::uint8_t>(type), static_cast<std::uint8_t>(color), 0});
+  }
+};
+
+TEST_F(LexiconTest, AWordSaysNothingOfWhatIsNoObject) {
+  speak(0.5);
+  EXPECT_EQ(scores.topRows(kFirstObject).cwiseAbs().maxCoeff(), 0);
+}
+
+TEST_F(LexiconTest, WhatItSaysOfTypesAndColorsAddsUp) {
+  const Matrix<double> raw = scores;
+  speak(0);
+  // Differences of differences vanish: no word knows a pair.
+  for (int v = 0; v < 5; ++v) {
+    const double interaction = scores(code(5, 0), v) - scores(code(6, 0), v) -
+                               scores(code(5, 3), v) + scores(code(6, 3), v);
+    EXPECT_NEAR(interaction, 0, 1e-12);
+  }
+  EXPECT_GT((scores - raw).cwiseAbs().maxCoeff(), 0.1);
+}
+
+TEST_F(LexiconTest, FocusedItSpeaksOfOneAttribute) {
+  // A word that is a little about type and much about color.
+  for (int t = 5; t <= 7; ++t) {
+    for (int c = 0; c < 6; ++c) scores(code(t, c), 0) = 0.6 * (t == 5) + 5 * (c == 2);
+  }
+  speak(1);
+  EXPECT_NEAR(scores(code(5, 2), 0), scores(code(7, 2), 0), 1e-3);
+  EXPECT_GT(scores(code(5, 2), 0) - scores(code(5, 1), 0), 4);
+}
+
+TEST_F(LexiconTest, FocusedAQuietWordSaysNothing) {
+  scores.setZero();
+  scores(code(5, 0), 0) = 5;
+  scores(code(5, 0), 1) = 0.5;
+  speak(1);
+  EXPECT_GT(scores.col(0).maxCoeff(), 1);
+  EXPECT_LT(scores.col(1).cwiseAbs().maxCoeff(), 1e-3);
+}
+
+TEST_F(LexiconTest, NowhereIsAShareOfTheBestMatch) {
+  speak(0.3);
+  for (int v = 0; v < babyai::kVocabularySize; ++v) {
+    EXPECT_NEAR(scores(21, v), design.config.nowhere * scores.col(v).head(21).maxCoeff(), 1e-12);
+  }
+}
+
+TEST_F(LexiconTest, WordsThatSayNothingAtAllAreNoTrouble) {
+  scores.setZero();
+  speak(1);
+  EXPECT_TRUE(scores.isZero());
+}
+
+}  // namespace
+}  // namespace wordgaze::model
