@@ -9,7 +9,7 @@
 namespace wordgaze::policy {
 
 /// The most sub-tasks that a completion vector tells of.
-inline constexpr std::size_t kMaxSubTasks = 8;
+inline constexpr std::size_t kMaxSubTasks = 16;
 
 /// What an agent is told before each decision: a value, from an environment (environment.hpp), a
 /// robot's camera or a message.
