@@ -51,7 +51,7 @@ import wordgaze_tasks  # noqa: E402
 gym.logger.min_level = gym.logger.ERROR
 WORDGAZE_IDS = [f"Wordgaze-{count}-N{size}-K{objects}{auto}-v0"
                 for counts, sizes in ((("One", "Two"), ((5, 2), (8, 4), (8, 12), (12, 8))),
-                                      (("Three", "Four"), ((5, 4),)))
+                                      (("Three", "Four"), ((5, 4),)), (("Six", "Eight"), ((8, 8),)))
                 for count in counts for size, objects in sizes for auto in ("", "-auto")]
 
 

@@ -1,8 +1,9 @@
-"""Wordgaze's one-room tasks, written for the reference: Wordgaze-{One,Two,Three,Four}-N{N}-K{K}[-auto]-v0.
+"""Wordgaze's one-room tasks, written for the reference: Wordgaze-{One,...,Eight}-N{N}-K{K}[-auto]-v0.
 
-A square room of N cells a side, walls included, with K objects, no two alike. One to four of them are
-targets: the agent is to go to a target or to pick it up. Two targets are joined by "and", ", then" or
-"after you"; of more, some are joined by "and" and the two parts are put in an order. Without -auto each
+A square room of N cells a side, walls included, with K objects, no two alike. One to eight of them
+are targets: the agent is to go to a target or to pick it up. Two targets are joined by "and", ", then" or
+"after you"; of three and four, some are joined by "and" and the two parts are put in an order; more are a
+chain of such parts. Without -auto each
 sub-task is declared by its own done action, in its order ("sequential"); with -auto the reference's
 verifier decides and done means nothing. docs/simulator.md tells both.
 """
@@ -13,8 +14,8 @@ from minigrid.core.actions import Actions
 from minigrid.envs.babyai.core import verifier
 from minigrid.envs.babyai.core.roomgrid_level import RejectSampling, RoomGridLevel
 
-PATTERN = re.compile(r"Wordgaze-(One|Two|Three|Four)-N(\d+)-K(\d+)(-auto)?-v0")
-NUMBERS = ("One", "Two", "Three", "Four")
+PATTERN = re.compile(r"Wordgaze-(One|Two|Three|Four|Five|Six|Seven|Eight)-N(\d+)-K(\d+)(-auto)?-v0")
+NUMBERS = ("One", "Two", "Three", "Four", "Five", "Six", "Seven", "Eight")
 And, Before, After = verifier.AndInstr, verifier.BeforeInstr, verifier.AfterInstr
 VERBS = {"goto": verifier.GoToInstr, "pickup": verifier.PickupInstr}
 
@@ -24,6 +25,28 @@ def leaves(instruction):
     if not hasattr(instruction, "instr_a"):
         return [instruction]
     return leaves(instruction.instr_a) + leaves(instruction.instr_b)
+
+
+def nested(kind, a, b):
+    """An order of parts that are ordered themselves, which the reference verifies but does not construct."""
+    instruction = kind.__new__(kind)
+    verifier.Instr.__init__(instruction)
+    instruction.instr_a, instruction.instr_b, instruction.strict = a, b, False
+    return instruction
+
+
+def sequence(parts):
+    """The parts one after the other."""
+    return parts[0] if len(parts) == 1 else nested(Before, parts[0], sequence(parts[1:]))
+
+
+def turns(instruction):
+    """Its parts in the order in which they are to be done."""
+    if isinstance(instruction, Before):
+        return turns(instruction.instr_a) + turns(instruction.instr_b)
+    if isinstance(instruction, After):
+        return turns(instruction.instr_b) + turns(instruction.instr_a)
+    return [instruction]
 
 
 class OneRoomTask(RoomGridLevel):
@@ -52,11 +75,24 @@ class OneRoomTask(RoomGridLevel):
             return parts[0]
         if len(parts) == 2:
             return self._rand_elem([And, Before, After])(*parts)
+        if len(parts) > 4:
+            return self.chain(parts)
         order = self._rand_elem([Before, After])
         if len(parts) == 4:
             return order(And(*parts[:2]), And(*parts[2:]))
         a, b, c = parts
         return order(And(a, b), c) if self._rand_elem([True, False]) else order(a, And(b, c))
+
+    def chain(self, left):
+        parts = []
+        while left:
+            size = 1 + self._rand_int(0, 2) if len(left) > 1 else 1
+            parts.append(And(*left[:2]) if size == 2 else left[0])
+            left = left[size:]
+        if self._rand_elem([True, False]):
+            return sequence(parts)
+        after = 1 + self._rand_int(0, len(parts) - 1)
+        return nested(After, sequence(parts[:after]), sequence(parts[after:]))
 
     def completion_of(self, instruction, done):
         """One 0/1 for each sub-task of an instruction; an instruction is done as a whole."""
@@ -93,15 +129,11 @@ class DeclaredOneRoomTask(OneRoomTask):
         return [int(done) for done in self.declared]
 
     def declarable(self):
-        """Those of the part whose turn it is: the other part waits until it is all declared."""
-        parts = [range(self.targets)]
-        if isinstance(self.instrs, (Before, After)):
-            first = len(leaves(self.instrs.instr_a))
-            parts = [range(first), range(first, self.targets)]
-            if isinstance(self.instrs, After):
-                parts.reverse()
-        for part in parts:
-            waiting = [k for k in part if not self.declared[k]]
+        """Those of the part whose turn it is: the next one waits until it is all declared."""
+        clauses = leaves(self.instrs)
+        for part in turns(self.instrs):
+            waiting = [k for k, clause in enumerate(clauses)
+                       if clause in leaves(part) and not self.declared[k]]
             if waiting:
                 return waiting
         return []

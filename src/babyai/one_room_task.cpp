@@ -11,10 +11,33 @@ Clause draw_clause(Layout& layout, grid::ObjectId target) {
   return {.verb = layout.pick(kVerbs), .object = layout.describe(target)};
 }
 
-/// Joins the clauses in one of the ways of the grammar, each as likely. More than two have an
-/// order, for "and" joins two.
+Instruction sequence(std::span<const Instruction> parts) {
+  Instruction whole = parts[0];
+  for (const Instruction& part : parts.subspan(1)) whole = ordered(whole, Order::before, part);
+  return whole;
+}
+
+/// Parts of one or two clauses, one done after the other. Every second time there is an "after you"
+/// between two of them.
+Instruction chain(Layout& layout, std::span<const Clause> c) {
+  std::array<Instruction, Instruction::kMaxClauses> drawn{};
+  std::size_t count = 0;
+  while (!c.empty()) {
+    const bool two = c.size() > 1 && layout.rng.below(2) == 1;
+    drawn[count++] = two ? both(c[0], c[1]) : single(c[0]);
+    c = c.subspan(two ? 2 : 1);
+  }
+  const auto parts = std::span<const Instruction>(drawn).first(count);
+  if (layout.rng.below(2) == 0) return sequence(parts);
+  const auto after = static_cast<std::size_t>(1 + layout.rng.below(static_cast<int>(count) - 1));
+  return ordered(sequence(parts.first(after)), Order::after, sequence(parts.subspan(after)));
+}
+
+/// Joins up to four clauses in one of their ways, each as likely. More than two have an order, for
+/// "and" joins two; more than four are a chain.
 Instruction join(Layout& layout, const std::array<Clause, Instruction::kMaxClauses>& c) {
   const int clauses = layout.parameters<OneRoomTask>().clauses;
+  if (clauses > 4) return chain(layout, std::span(c).first(static_cast<std::size_t>(clauses)));
   if (clauses == 1) return single(c[0]);
   constexpr std::array kJoins{Order::any, Order::before, Order::after};
   const Order order =
@@ -28,7 +51,7 @@ Instruction join(Layout& layout, const std::array<Clause, Instruction::kMaxClaus
 
 }  // namespace
 
-// Wordgaze-One to Wordgaze-Four: as many of the objects in the room are targets.
+// Wordgaze-One to Wordgaze-Eight: as many of the objects in the room are targets.
 void one_room_task(Layout& layout) {
   layout.place_agent();
   const OneRoomTask& wanted = layout.parameters<OneRoomTask>();

@@ -17,27 +17,34 @@ class Parser {
   explicit Parser(std::string_view text) : text_(text) { advance(); }
 
   Instruction mission() {
-    const Instruction first = part();
-    Order order = Order::any;
-    if (accept(",")) {
-      expect("then");
-      order = Order::before;
-    } else if (accept("after")) {
+    Instruction whole = sequence();
+    if (accept("after")) {
       expect("you");
-      order = Order::after;
+      whole = ordered(whole, Order::after, sequence());
     }
-    const Instruction whole = order == Order::any ? first : ordered(first, order, part());
     if (!word_.empty()) fail({"the end"});
     return whole;
   }
 
  private:
+  Instruction sequence() {
+    Instruction whole = part();
+    while (accept(",")) {
+      expect("then");
+      whole = ordered(whole, Order::before, part());
+    }
+    return whole;
+  }
+
   Instruction part() {
     const Clause first = clause();
     return accept("and") ? both(first, clause()) : single(first);
   }
 
   Clause clause() {
+    if (clauses_++ == Instruction::kMaxClauses) {
+      fail({formatted("at most {} clauses", Instruction::kMaxClauses)});
+    }
     Clause clause;
     if (accept("go")) {
       expect("to");
@@ -139,6 +146,7 @@ class Parser {
   std::string_view text_;
   std::size_t end_ = 0;  // behind word_
   std::string_view word_;
+  int clauses_ = 0;
 };
 
 }  // namespace

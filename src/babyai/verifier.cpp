@@ -46,7 +46,8 @@ bool Verifier::completed(Part part) const {
 }
 
 void Verifier::update_turns(const Instruction& instruction) {
-  const Part turn = completed(instruction.earlier()) ? instruction.later() : instruction.earlier();
+  Part turn = instruction.first();
+  while (turn.size() > 0 && completed(turn)) turn = instruction.next(turn);
   declarable_.fill(0);
   for (int k = turn.begin; k < turn.end; ++k) declarable_[k] = !completed_[k];
 }
@@ -72,20 +73,29 @@ Status Verifier::verify_sequential(const World& world, const Task& task, Action 
 
 Status Verifier::verify_in_order(const World& world, const Task& task, Action action) {
   const Instruction& instruction = task.instruction;
-  const Part first = instruction.earlier(), second = instruction.later();
-  if (instruction.order == Order::any) return verify_part(world, task, action, first);
-  if (!completed(first)) {
-    const Status status = verify_part(world, task, action, first);
+  Part part = instruction.first();
+  Part next = instruction.next(part);
+  if (next.size() == 0) return verify_part(world, task, action, part);
+  for (; next.size() > 0; part = next, next = instruction.next(next)) {
+    if (completed(part)) continue;
+    const Status status = verify_part(world, task, action, part);
     if (status == Status::failure) return status;
     if (status != Status::success) {
-      const bool out_of_order =
-          instruction.strict && verify_part(world, task, action, second) == Status::success;
+      const bool out_of_order = instruction.strict && any_succeeds(world, task, action, next);
       return out_of_order ? Status::failure : Status::ongoing;
     }
-    // The action that completes the first part may complete the second as well.
+    // The action that completes a part may complete the next one as well.
   }
-  const Status status = verify_part(world, task, action, second);
+  const Status status = verify_part(world, task, action, part);
   return status == Status::none ? Status::ongoing : status;
+}
+
+// Whether an action makes a part true, or one that is to be done after it.
+bool Verifier::any_succeeds(const World& world, const Task& task, Action action, Part part) {
+  for (; part.size() > 0; part = task.instruction.next(part)) {
+    if (verify_part(world, task, action, part) == Status::success) return true;
+  }
+  return false;
 }
 
 Status Verifier::verify_part(const World& world, const Task& task, Action action, Part part) {

@@ -10,8 +10,8 @@
 namespace wordgaze::babyai {
 namespace {
 
-constexpr std::array<std::string_view, Instruction::kMaxClauses> kNumbers{"One", "Two", "Three",
-                                                                          "Four"};
+constexpr std::array<std::string_view, Instruction::kMaxClauses> kNumbers{
+    "One", "Two", "Three", "Four", "Five", "Six", "Seven", "Eight"};
 
 // Reads an id from the front.
 class IdReader {

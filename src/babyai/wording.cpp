@@ -30,13 +30,19 @@ class Writer {
  public:
   explicit Writer(const Meaning& meaning) : meaning_(meaning) {}
 
-  void part(const Instruction& instruction, Instruction::Part part) {
-    for (int k = part.begin; k < part.end; ++k) {
-      if (k > part.begin) join({"and"_w});
-      clause(instruction.clause[k], meaning_.object[k], meaning_.next_to[k]);
+  void clause(const Instruction& instruction, int k) {
+    clause(instruction.clause[k], meaning_.object[k], meaning_.next_to[k]);
+  }
+  void join(Order order) {
+    switch (order) {
+      case Order::any:
+        return write({"and"_w}, kJoining);
+      case Order::before:
+        return write({","_w, "then"_w}, kJoining);
+      case Order::after:
+        return write({"after"_w, "you"_w}, kJoining);
     }
   }
-  void join(std::initializer_list<WordId> words) { write(words, kJoining); }
   const Sentence& sentence() const { return sentence_; }
 
  private:
@@ -100,10 +106,10 @@ class Writer {
 
 Sentence wording(const Instruction& instruction, const Meaning& meaning) {
   Writer writer(meaning);
-  writer.part(instruction, instruction.part_a());
-  if (instruction.order == Order::before) writer.join({","_w, "then"_w});
-  if (instruction.order == Order::after) writer.join({"after"_w, "you"_w});
-  writer.part(instruction, instruction.part_b());
+  for (int k = 0; k < instruction.clauses(); ++k) {
+    if (k > 0) writer.join(instruction.order[k]);
+    writer.clause(instruction, k);
+  }
   return writer.sentence();
 }
 

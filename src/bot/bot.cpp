@@ -55,10 +55,12 @@ Bot::Bot(const Environment& env)
   for (int phrase = 0; phrase < 2 * instruction.clauses(); ++phrase) {
     memory_.phrases.emplace_back(look_up(env, phrase));
   }
-  for (const Instruction::Part part : {instruction.later(), instruction.earlier()}) {
-    for (int k = part.end - 1; k >= part.begin; --k) {
-      plan_clause(instruction.clause[k].verb, k, memory_.plan);
-    }
+  std::vector<int> turns;
+  for (auto part = instruction.first(); part.size() > 0; part = instruction.next(part)) {
+    for (int k = part.begin; k < part.end; ++k) turns.push_back(k);
+  }
+  for (auto k = turns.rbegin(); k != turns.rend(); ++k) {
+    plan_clause(instruction.clause[*k].verb, *k, memory_.plan);
   }
 }
 

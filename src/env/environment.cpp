@@ -93,8 +93,9 @@ Transition Environment::step(Action action) {
 void Environment::set_instruction(const babyai::Instruction& instruction) {
   require(spec_->rule == babyai::Rule::instruction,
           "set_instruction: '{}' is not a level of instructions", spec_->id);
-  const babyai::Meaning meaning = look_up(world_, instruction);
   require(instruction.clauses() > 0, "set_instruction: the instruction has no clauses");
+  require(is_grammatical(instruction), "set_instruction: the instruction is not of the grammar");
+  const babyai::Meaning meaning = look_up(world_, instruction);
   for (int k = 0; k < instruction.clauses(); ++k) {
     require(meaning.object[k] != 0 &&
                 (instruction.clause[k].verb != babyai::Verb::put_next || meaning.next_to[k] != 0),

@@ -13,7 +13,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "serialized states are little-endian");
 
 // Behind the mark: a checksum of the rest, the id, the state.
-constexpr std::uint64_t kMark = 0x32656d6167647277;  // "wrdgame2"
+constexpr std::uint64_t kMark = 0x33656d6167647277;  // "wrdgame3"
 
 std::uint64_t checksum(std::span<const std::uint8_t> bytes) {
   std::uint64_t h = 0xCBF29CE484222325;  // FNV-1a

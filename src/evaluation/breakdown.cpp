@@ -8,6 +8,7 @@ namespace wordgaze::evaluation {
 namespace {
 
 constexpr std::array<std::string_view, 4> kVerbs{"go to", "pick up", "open", "put next"};
+constexpr std::array<std::string_view, 3> kJoins{"and", "then", "after"};
 
 void append(std::string& list, std::string_view item) {
   if (!list.empty()) list += ", ";
@@ -24,10 +25,9 @@ std::string verbs(const babyai::Instruction& instruction) {
 
 std::string joins(const babyai::Instruction& instruction) {
   std::string list;
-  if (instruction.first_part == 2) append(list, "and");
-  if (instruction.order == babyai::Order::before) append(list, "then");
-  if (instruction.order == babyai::Order::after) append(list, "after");
-  if (instruction.second_part == 2) append(list, "and");
+  for (std::size_t i = 1; i < instruction.count; ++i) {
+    append(list, kJoins[static_cast<std::size_t>(instruction.order[i])]);
+  }
   return list.empty() ? "none" : list;
 }
 

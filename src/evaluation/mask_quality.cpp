@@ -13,7 +13,7 @@ double ratio(std::int64_t part, std::int64_t whole) {
 }  // namespace
 
 bool MaskQuality::add(std::span<const float> alpha, const babyai::Sentence& sentence,
-                      std::uint8_t bright_sub_tasks) {
+                      std::uint16_t bright_sub_tasks) {
   bool agrees = true;
   for (std::size_t i = 0; i < static_cast<std::size_t>(sentence.length); ++i) {
     const int sub_task = sentence.sub_task_of[i];
@@ -34,7 +34,7 @@ double MaskQuality::f1() const {
   return ratio(2 * true_positive, 2 * true_positive + false_positive + false_negative);
 }
 
-void MaskDelay::add(std::size_t index, bool begins, std::uint8_t completed, bool agrees) {
+void MaskDelay::add(std::size_t index, bool begins, std::uint16_t completed, bool agrees) {
   if (index >= lanes_.size()) lanes_.resize(index + 1);
   Lane& lane = lanes_[index];
   if (begins) {

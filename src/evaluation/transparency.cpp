@@ -6,10 +6,10 @@ namespace wordgaze::evaluation {
 namespace {
 
 /// A list of 0/1 as bits.
-std::uint8_t bits(std::span<const std::uint8_t> flags) {
-  std::uint8_t set = 0;
+std::uint16_t bits(std::span<const std::uint8_t> flags) {
+  std::uint16_t set = 0;
   for (std::size_t i = 0; i < flags.size(); ++i) {
-    if (flags[i]) set |= static_cast<std::uint8_t>(1u << i);
+    if (flags[i]) set |= static_cast<std::uint16_t>(1u << i);
   }
   return set;
 }

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <ostream>
 #include <set>
@@ -16,7 +17,6 @@ namespace {
 
 using babyai::Clause;
 using babyai::Instruction;
-using babyai::Order;
 using babyai::Verb;
 using babyai::WordId;
 
@@ -37,18 +37,15 @@ std::string_view form(Verb verb) {
   return "";
 }
 
-std::string form(const Instruction& i, Instruction::Part part) {
-  const std::string first{form(i.clause[part.begin].verb)};
-  if (part.size() == 1) return first;
-  return fmt::format("{} and {}", first, form(i.clause[part.begin + 1].verb));
-}
-
 // "go to D, then open D"
 std::string form(const Instruction& i) {
-  const std::string a = form(i, i.part_a());
-  if (i.order == Order::any) return a;
-  return fmt::format("{}{} {}", a, i.order == Order::before ? ", then" : " after you",
-                     form(i, i.part_b()));
+  constexpr std::array<std::string_view, 3> kJoins{" and ", ", then ", " after you "};
+  std::string text{form(i.clause[0].verb)};
+  for (int k = 1; k < i.clauses(); ++k) {
+    text += kJoins[static_cast<std::size_t>(i.order[k])];
+    text += form(i.clause[k].verb);
+  }
+  return text;
 }
 
 // The missions of a level as it draws them: D stands for a description.
@@ -149,8 +146,10 @@ Besides these there are Wordgaze's own one-room tasks, for any room and number o
 `Wordgaze-One-N8-K4-v0` has one target among 4 objects of different kinds in a room of 8 x 8 cells
 (walls included), `Wordgaze-Two-N8-K4-v0` two targets joined by "and", ", then" or "after you",
 `Wordgaze-Three-N8-K4-v0` and `Wordgaze-Four-N8-K4-v0` three and four as in "A and B, then C" and "A
-and B after you C and D". Each clause is declared by its own `done`; in the same ids with `-auto`
-(`Wordgaze-One-N8-K4-auto-v0`) the verifier decides by itself. N is at least 5; K is at most 18, and at most half the free cells.
+and B after you C and D", `Wordgaze-Five-N8-K8-v0`, `Six`, `Seven` and `Eight` a chain of them, as in "A, then B and C, then D
+after you E and F". Each clause is declared by its own `done`; in the same ids with `-auto`
+(`Wordgaze-One-N8-K4-auto-v0`) the verifier decides by itself. N is at least 5; K is at least the number of clauses, at most 18,
+and at most half the free cells.
 
 An id of any level takes other rooms and another number of scattered objects, where it has such numbers and they fit:
 `BabyAI-GoToLocal-v0[room_size=10][objects=4]`. Step limits that are fixed stay. `babyai::register_level` adds levels of

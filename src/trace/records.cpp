@@ -132,14 +132,23 @@ Json part(const Environment& env, Instruction::Part p) {
           {"b", clause(env, p.begin + 1)}};
 }
 
+Json ordered(const Environment& env, const char* kind, const Json& a, const Json& b) {
+  return {{"k", kind}, {"strict", env.instruction().strict}, {"a", a}, {"b", b}};
+}
+
+// Clauses [begin, end): "A, then (B, then C)".
+Json sequence(const Environment& env, int begin, int end) {
+  const Instruction::Part first = env.instruction().part_at(begin);
+  if (first.end == end) return part(env, first);
+  return ordered(env, "Before", part(env, first), sequence(env, first.end, end));
+}
+
 Json instruction(const Environment& env) {
   const Instruction& i = env.instruction();
   if (i.clauses() == 0) return nullptr;
-  if (i.order == babyai::Order::any) return part(env, i.part_a());
-  return {{"k", i.order == babyai::Order::before ? "Before" : "After"},
-          {"strict", i.strict},
-          {"a", part(env, i.part_a())},
-          {"b", part(env, i.part_b())}};
+  const int after = i.behind_after();
+  if (after == 0) return sequence(env, 0, i.clauses());
+  return ordered(env, "After", sequence(env, 0, after), sequence(env, after, i.clauses()));
 }
 
 }  // namespace

@@ -28,7 +28,8 @@ void Batch::gather(const model::Config& config, const Rollout& r, std::span<cons
   if (x.shape != shape) {
     x.resize(config, shape);
     const auto n = static_cast<std::size_t>(shape.columns());
-    for (auto* bytes : {&action, &bright}) bytes->resize(n);
+    action.resize(n);
+    bright.resize(n);
     for (auto* numbers : {&log_prob, &advantage, &value_target}) numbers->resize(n);
   }
   missions.clear();

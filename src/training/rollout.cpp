@@ -10,7 +10,8 @@ Rollout::Rollout(const model::Config& model, const PpoConfig& ppo)
   mission_of.assign(size, 0);
   keep.setOnes(1, n);
   completion.setZero(model.sub_tasks, n);
-  for (auto* v : {&action, &ended, &bright}) v->assign(size, 0);
+  for (auto* v : {&action, &ended}) v->assign(size, 0);
+  bright.assign(size, 0);
   for (auto* v : {&log_prob, &value, &reward, &advantage}) v->assign(size, 0);
   next_value.assign(static_cast<std::size_t>(ppo.lanes), 0);
   start_h.setZero(model.memory_size, sequences());

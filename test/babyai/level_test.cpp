@@ -31,12 +31,13 @@ TEST(Level, TakesItsNumbersFromTheName) {
   EXPECT_EQ(clauses(level), 2);
   EXPECT_EQ(level.done_mode, DoneMode::sequential);
   EXPECT_EQ(clauses(find_level("Wordgaze-Four-N10-K4-v0")), 4);
+  EXPECT_EQ(clauses(find_level("Wordgaze-Eight-N10-K8-v0")), 8);
   EXPECT_EQ(find_level("Wordgaze-One-N8-K4-auto-v0").done_mode, DoneMode::off);
 }
 
 TEST(Level, RefusesNamesThatOnlyResembleOne) {
   for (const char* id : {"Wordgaze-One-N8-K4", "Wordgaze-One-N8-K4-v0 ", "Wordgaze-One-N8-K4-v1",
-                         "Wordgaze-Five-N8-K4-v0", "Wordgaze-One-N-K4-v0", "Wordgaze-One-N8-K-4-v0",
+                         "Wordgaze-Nine-N8-K9-v0", "Wordgaze-One-N-K4-v0", "Wordgaze-One-N8-K-4-v0",
                          "Wordgaze-One-N88888-K4-v0", "Wordgaze-One-N8-K4-auto-auto-v0", ""}) {
     EXPECT_THROW(find_level(id), std::invalid_argument) << id;
   }
@@ -50,11 +51,30 @@ TEST(Level, LimitsStepsByTheAreaAndTheInstruction) {
   EXPECT_EQ(step_limit(find_level("BabyAI-KeyCorridor-v0"), single(go)), 1080);
 }
 
-TEST(Instruction, RefusesToOrderWhatHasAnOrder) {
-  const Instruction a = single({});
-  const Instruction pair = ordered(a, Order::before, a);
-  EXPECT_THROW(ordered(pair, Order::before, a), std::invalid_argument);
+TEST(Instruction, RefusesToOrderWhatTheGrammarDoesNot) {
+  const Instruction a = single({}), after = ordered(a, Order::after, a);
+  EXPECT_THROW(ordered(after, Order::before, a), std::invalid_argument);
+  EXPECT_THROW(ordered(a, Order::after, after), std::invalid_argument);
   EXPECT_THROW(ordered(a, Order::any, a), std::invalid_argument);
+  EXPECT_THROW(ordered(a, Order::before, {}), std::invalid_argument);
+  Instruction eight = a;
+  while (eight.clauses() < Instruction::kMaxClauses) eight = ordered(eight, Order::before, a);
+  EXPECT_TRUE(is_grammatical(eight));
+  EXPECT_THROW(ordered(eight, Order::before, a), std::invalid_argument);
+}
+
+TEST(Instruction, KnowsTheGrammar) {
+  using enum Order;
+  const auto joined = [](std::initializer_list<Order> orders) {
+    Instruction i{.count = static_cast<std::uint8_t>(orders.size() + 1)};
+    std::copy(orders.begin(), orders.end(), i.order.begin() + 1);
+    return is_grammatical(i);
+  };
+  EXPECT_TRUE(joined({any, before, any, after, before, any}));
+  EXPECT_FALSE(joined({any, any}));
+  EXPECT_FALSE(joined({after, before, after}));
+  EXPECT_FALSE(joined({static_cast<Order>(3)}));
+  EXPECT_FALSE(is_grammatical({.count = 9}));
 }
 
 }  // namespace

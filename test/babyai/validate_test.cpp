@@ -140,13 +140,14 @@ TEST(Validate, RefusesMoreObjectsThanFit) {
 
 TEST(Validate, RefusesNumbersOfTheOtherFamiliesOutOfRange) {
   const char* task = "Wordgaze-Two-N8-K4-v0";
-  for (const int clauses : {kMin, 0, 5, kMax}) {
+  for (const int clauses : {kMin, 0, 9, kMax}) {
     expect_refused(task, set(&OneRoomTask::clauses, clauses),
                    "clauses = " + std::to_string(clauses));
   }
   for (const int count : {kMin, 1, 19, kMax}) {
     expect_refused(task, set(&OneRoomTask::objects, count), "objects = " + std::to_string(count));
   }
+  expect_refused("Wordgaze-Eight-N10-K8-v0", set(&OneRoomTask::objects, 7), "objects = 7");
   for (const int count : {kMin, 0, 7, kMax}) {
     expect_refused("MiniGrid-MultiRoom-N6-v0", set(&MultiRoom::rooms, count),
                    "rooms = " + std::to_string(count));

@@ -140,6 +140,17 @@ TEST(Progress, CountsAnyOtherClauseAsOne) {
   EXPECT_EQ(numbers(play.in_sub_tasks().enabled()), (std::vector{0, 0, 1}));
 }
 
+TEST(Progress, HasTwoSubTasksForEachOfEightClauses) {
+  std::string mission = "put the red ball next to the red key";
+  for (int n = 1; n < 8; ++n) mission += ", then put the red ball next to the red key";
+  Play play(mission, {"B>.K", "...."});
+  EXPECT_EQ(play.in_sub_tasks().completion().size(), 16u);
+  play({left, left, pickup, right, right, drop});
+  const std::vector done = numbers(play.in_sub_tasks().completion());
+  EXPECT_EQ(std::count(done.begin(), done.end(), 1), 2);
+  EXPECT_EQ(numbers(play.in_sub_tasks().enabled())[2], 1);
+}
+
 TEST(Verifier, WantsADoorOpenedByToggling) {
   Play play("open the red door", {">c"});
   EXPECT_EQ(play({forward}), Status::ongoing);
@@ -224,6 +235,41 @@ TEST(Verifier, FailsWhenThereIsNothingToDeclareInSequentialMode) {
   Play twice("go to the red ball, then go to the red ball", {">.B"}, DoneMode::sequential);
   EXPECT_EQ(twice({forward, done}), Status::ongoing);
   EXPECT_EQ(twice({done}), Status::failure);  // it must come true again
+}
+
+TEST(Verifier, GoesThroughAChainInItsOrderOfDoing) {
+  constexpr std::string_view kMission =
+      "go to the red ball, then go to the red key and go to the blue ball after you go to the red "
+      "box, then go to the red key";
+  const std::vector<std::string_view> rows{".X.", "K>B", ".b."};  // right: the first of the sentence
+  Play play(kMission, rows, DoneMode::sequential);
+  EXPECT_EQ(play.declarable(), (std::vector{0, 0, 0, 1, 0}));
+  EXPECT_EQ(play({left, done}), Status::ongoing);
+  EXPECT_EQ(play.completion(), (std::vector{0, 0, 0, 1, 0}));
+  EXPECT_EQ(play.declarable(), (std::vector{0, 0, 0, 0, 1}));
+  EXPECT_EQ(play({left, done}), Status::ongoing);
+  EXPECT_EQ(play.declarable(), (std::vector{1, 0, 0, 0, 0}));
+  EXPECT_EQ(play({left, left, done}), Status::ongoing);
+  EXPECT_EQ(play.declarable(), (std::vector{0, 1, 1, 0, 0}));
+  EXPECT_EQ(numbers(play.in_sub_tasks().enabled()), (std::vector{0, 1, 1, 0, 0}));
+  EXPECT_EQ(play({right, done}), Status::ongoing);
+  EXPECT_EQ(play.completion(), (std::vector{1, 0, 1, 1, 1}));
+  EXPECT_EQ(play({right, done}), Status::success);
+
+  Play early(kMission, rows, DoneMode::sequential);
+  EXPECT_EQ(early({left, left, done}), Status::failure);  // the key before the box
+
+  Play judged(kMission, rows);
+  EXPECT_EQ(judged({left, left, left, left}), Status::ongoing);
+  EXPECT_EQ(judged.completion(), (std::vector{1, 0, 0, 1, 1}));
+  EXPECT_EQ(judged({right, right}), Status::success);
+}
+
+TEST(Verifier, FailsForAnyLaterPartOfAStrictChain) {
+  constexpr std::string_view kMission =
+      "go to the red ball, then go to the red key, then go to the blue ball";
+  Play play(kMission, {"K>.", ".b.", "..B"}, DoneMode::off, true);
+  EXPECT_EQ(play({right}), Status::failure);
 }
 
 TEST(Meaning, FitsADescriptionFromWhereTheAgentStands) {

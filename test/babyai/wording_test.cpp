@@ -41,7 +41,7 @@ TEST(Wording, SplitsPutNextIntoItsHalves) {
   EXPECT_EQ(sub_tasks, (std::vector{0, 0, 0, 1, 1, 1, 1, -1, 2, 2, 2}));
 }
 
-TEST(Wording, KeepsTheLongestMissionOfTheGrammar) {
+TEST(Wording, KeepsTheLongestMissionOfBabyAi) {
   const std::string d = "the purple ball in front of you";
   const std::string clause = "put " + d + " next to " + d;
   const std::string part = clause + " and " + clause;
@@ -50,6 +50,17 @@ TEST(Wording, KeepsTheLongestMissionOfTheGrammar) {
   EXPECT_EQ(longest.length, 72);  // with the comma
   EXPECT_LE(longest.length, kMaxMissionWords);
   EXPECT_EQ(text(longest).size(), 317u);
+}
+
+TEST(Wording, HasWordsForEightClausesOfTheLongestLevel) {
+  std::string longest = "pick up the purple ball";
+  for (int n = 1; n < Instruction::kMaxClauses; ++n) longest += ", then pick up the purple ball";
+  EXPECT_EQ(worded(longest, {">B"}).length, 54);
+  // But not for eight of any kind.
+  const std::string put = "put the purple ball next to the purple ball";
+  std::string too_long = put;
+  for (int n = 1; n < Instruction::kMaxClauses; ++n) too_long += ", then " + put;
+  EXPECT_THROW(worded(too_long, {">B"}), std::length_error);
 }
 
 TEST(Sentence, IsReadFromText) {

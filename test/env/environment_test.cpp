@@ -224,7 +224,7 @@ Environment two_clauses(babyai::Order order) {
   Environment env("Wordgaze-Two-N8-K4-v0");
   for (std::uint64_t seed = 0;; ++seed) {
     env.reset(seed);
-    if (env.instruction().order == order) return env;
+    if (env.instruction().order[1] == order) return env;
   }
 }
 
@@ -302,7 +302,8 @@ TEST(Environment, JoinsThreeAndFourClausesInEveryWayOfTheGrammar) {
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
       env.reset(seed);
       const auto& instruction = env.instruction();
-      seen.emplace(instruction.first_part, instruction.order);
+      const int first = instruction.part_at(0).end;
+      seen.emplace(first, instruction.order[static_cast<std::size_t>(first)]);
       std::set<std::pair<int, int>> kinds;
       for (int k = 0; k < instruction.clauses(); ++k) {
         const auto& object = instruction.clause[static_cast<std::size_t>(k)].object;
@@ -313,6 +314,64 @@ TEST(Environment, JoinsThreeAndFourClausesInEveryWayOfTheGrammar) {
     }
     EXPECT_EQ(seen.size(), ways) << id;
   }
+}
+
+TEST(Environment, ChainsMoreThanFourClauses) {
+  for (const auto& [id, clauses] : {std::pair{"Wordgaze-Five-N8-K8-v0", 5},
+                                    std::pair{"Wordgaze-Six-N8-K8-v0", 6},
+                                    std::pair{"Wordgaze-Seven-N8-K8-v0", 7},
+                                    std::pair{"Wordgaze-Eight-N8-K8-auto-v0", 8}}) {
+    Environment env(id);
+    std::set<int> afters, parts;
+    int with_after = 0;
+    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+      env.reset(seed);
+      const auto& instruction = env.instruction();
+      ASSERT_TRUE(is_grammatical(instruction));
+      ASSERT_EQ(instruction.clauses(), clauses);
+      ASSERT_EQ(env.max_steps(), 64 * clauses);
+      afters.insert(instruction.behind_after());
+      with_after += instruction.behind_after() > 0;
+      int count = 0, done = 0;
+      for (auto p = instruction.first(); p.size() > 0; p = instruction.next(p)) {
+        ++count;
+        done += p.size();
+      }
+      ASSERT_EQ(done, clauses);
+      parts.insert(count);
+      grid::ObjectSet targets = 0;
+      for (int k = 0; k < clauses; ++k) targets |= env.meaning().object[static_cast<std::size_t>(k)];
+      ASSERT_EQ(std::popcount(targets), clauses) << seed;
+    }
+    EXPECT_NEAR(with_after, 200, 40) << id;
+    EXPECT_EQ(*parts.begin(), (clauses + 1) / 2) << id;  // all pairs
+    EXPECT_EQ(afters.size(), static_cast<std::size_t>(clauses)) << id;  // none, or before any clause
+  }
+}
+
+TEST(Environment, DoesTheClausesOfAChainInTheirOrder) {
+  Environment env("Wordgaze-Eight-N8-K8-v0");
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    env.reset(seed);
+    const babyai::Instruction i = env.instruction();
+    for (auto part = i.first(); part.size() > 0; part = i.next(part)) {
+      for (int k = 0; k < i.clauses(); ++k) {
+        ASSERT_EQ(env.declarable()[static_cast<std::size_t>(k)], k >= part.begin && k < part.end);
+      }
+      if (i.next(part).size() == 0) break;  // the last clause cannot be marked
+      for (int k = part.begin; k < part.end; ++k) env.mark_completed(k);
+    }
+  }
+}
+
+TEST(Environment, RefusesAnInstructionThatIsNotOfTheGrammar) {
+  Environment env("Wordgaze-Three-N8-K4-v0");
+  env.reset(1);
+  babyai::Instruction i = env.instruction();
+  i.order = {};
+  EXPECT_THROW(env.set_instruction(i), std::invalid_argument);
+  i.count = 200;
+  EXPECT_THROW(env.set_instruction(i), std::invalid_argument);
 }
 
 }  // namespace

@@ -178,7 +178,13 @@ const Mistake kMistakes[] = {
     {"too many clauses",
      [](Layout& l) {
        l.place_agent();
-       l.task.instruction.first_part = l.task.instruction.second_part = 200;
+       l.task.instruction.count = 200;
+     },
+     Rule::instruction},
+    {"\"and\" of three",
+     [](Layout& l) {
+       l.place_agent();
+       l.task.instruction.count = 3;
      },
      Rule::instruction},
     {"a room that is none",

@@ -16,6 +16,9 @@ TEST(Breakdown, NamesVerbsAndJoinsInTheOrderOfTheSentence) {
   b.add(babyai::both(kGo, kPick), true);
   b.add(babyai::ordered(babyai::single(kPick), Order::after, babyai::single(kGo)), false);
   b.add(babyai::ordered(babyai::both(kGo, kGo), Order::before, babyai::both(kGo, kPick)), true);
+  const auto three = babyai::ordered(babyai::single(kGo), Order::before, babyai::both(kGo, kGo));
+  b.add(babyai::ordered(three, Order::after, babyai::single(kGo)), true);
+  EXPECT_EQ(b.by_join.at("then, and, after").successes, 1);
   EXPECT_EQ(b.by_verb.at("go to").episodes, 1);
   EXPECT_EQ(b.by_verb.at("go to, pick up").successes, 1);
   EXPECT_EQ(b.by_verb.at("pick up, go to").successes, 0);

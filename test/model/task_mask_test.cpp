@@ -9,7 +9,7 @@ namespace {
 
 using Bits = std::vector<std::uint8_t>;
 
-std::uint8_t bright(MaskTruth truth, const Bits& completed, const Bits& enabled) {
+std::uint16_t bright(MaskTruth truth, const Bits& completed, const Bits& enabled) {
   babyai::Progress progress;
   for (std::size_t i = 0; i < completed.size(); ++i) {
     progress.add({}, completed[i] != 0, enabled[i] != 0);
@@ -31,6 +31,15 @@ TEST(TaskMask, CurrentKeepsOneSubTaskBright) {
   EXPECT_EQ(bright(MaskTruth::current, Bits{0, 0}, Bits{1, 1}), 0b01);
   EXPECT_EQ(bright(MaskTruth::current, Bits{0, 0}, Bits{0, 1}), 0b10);
   EXPECT_EQ(bright(MaskTruth::current, Bits{1, 0}, Bits{0, 1}), 0b10);
+}
+
+TEST(TaskMask, HasABitForEachOfSixteenSubTasks) {
+  const Bits none(16, 0);
+  Bits last(16, 0);
+  last.back() = 1;
+  EXPECT_EQ(bright(MaskTruth::completed, none, last), 0xFFFF);
+  EXPECT_EQ(bright(MaskTruth::current, none, last), 0x8000);
+  EXPECT_TRUE(is_bright(15, 0x8000));
 }
 
 TEST(TaskMask, JoiningWordsAreDark) {

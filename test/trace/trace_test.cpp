@@ -79,6 +79,7 @@ std::string recorded(RecordOptions options) {
 
 TEST(Trace, ReplaysWhatItRecords) {
   const std::string text = recorded({.ids = {"BabyAI-MiniBossLevel-v0", "Wordgaze-Two-N8-K4-v0",
+                                             "Wordgaze-Eight-N8-K8-v0",
                                              "MiniGrid-Dynamic-Obstacles-6x6-v0"},
                                      .first_seed = 3,
                                      .end_seed = 5,
@@ -87,8 +88,8 @@ TEST(Trace, ReplaysWhatItRecords) {
   std::ostringstream details;
   const ReplayReport report = replay(trace, details);
   EXPECT_EQ(report.mismatches, 0) << details.str();
-  EXPECT_EQ(report.envs, 3);
-  EXPECT_EQ(report.steps, 3 * 2 * 50);
+  EXPECT_EQ(report.envs, 4);
+  EXPECT_EQ(report.steps, 4 * 2 * 50);
 }
 
 // Turns left for ever.

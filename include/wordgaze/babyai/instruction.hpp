@@ -33,23 +33,25 @@ struct Clause {
   bool operator==(const Clause&) const = default;
 };
 
-/// In which order the two parts of an instruction are to be done.
+/// How a clause is joined to the one before it, and so which of them is done first.
 enum class Order : std::uint8_t {
-  any,     ///< one part only
+  any,     ///< "A and B"
   before,  ///< "A, then B"
-  after,   ///< "A after you B": B comes first
+  after,   ///< "A after you B": B comes first, with all that stands behind it
 };
 
-/// One clause, two joined by "and", or two such parts in an order. At most four clauses, in the
-/// order of the sentence; a flat value instead of a tree.
+/// Clauses in the order of the sentence; a flat value instead of a tree:
+///
+///     mission  := sequence | sequence "after you" sequence
+///     sequence := part | part ", then" sequence
+///     part     := clause | clause "and" clause
 struct Instruction {
-  static constexpr int kMaxClauses = 4;
+  static constexpr int kMaxClauses = 8;
 
   std::array<Clause, kMaxClauses> clause{};
-  std::uint8_t first_part = 0;   ///< clauses of part A: 1 or 2
-  std::uint8_t second_part = 0;  ///< clauses of part B: 0 without an order, else 1 or 2
-  Order order = Order::any;
-  bool strict = false;  ///< with an order: doing the later part first is a failure
+  std::array<Order, kMaxClauses> order{};  ///< of a clause and the one before it; [0] means nothing
+  std::uint8_t count = 0;                  ///< of clauses
+  bool strict = false;  ///< with an order: doing a later part first is a failure
 
   /// Clauses [begin, end) of one part.
   struct Part {
@@ -57,22 +59,41 @@ struct Instruction {
     int size() const { return end - begin; }
   };
 
-  int clauses() const { return first_part + second_part; }
-  /// The part to be done first, and the other one (empty without an order).
-  Part earlier() const { return order == Order::after ? part_b() : part_a(); }
-  Part later() const { return order == Order::after ? part_a() : part_b(); }
+  int clauses() const { return count; }
 
-  Part part_a() const { return {0, first_part}; }
-  Part part_b() const { return {first_part, clauses()}; }
+  /// The part that begins with a clause.
+  Part part_at(int begin) const {
+    int end = begin < count ? begin + 1 : begin;
+    while (end < count && order[end] == Order::any) ++end;
+    return {begin, end};
+  }
+  /// The clause behind "after you"; 0 without one.
+  int behind_after() const {
+    for (int k = 1; k < count; ++k) {
+      if (order[k] == Order::after) return k;
+    }
+    return 0;
+  }
+  /// The parts in the order in which they are to be done; an empty one behind the last.
+  Part first() const { return part_at(behind_after()); }
+  Part next(Part part) const {
+    if (part.end < count) return order[part.end] == Order::before ? part_at(part.end) : Part{};
+    const int start = behind_after();
+    return start > 0 && part.begin >= start ? part_at(0) : Part{};
+  }
 
   bool operator==(const Instruction&) const = default;
 };
+
+/// Whether the clauses are joined as the grammar has it.
+bool is_grammatical(const Instruction& instruction);
 
 /// "A"
 Instruction single(const Clause& a);
 /// "A and B"
 Instruction both(const Clause& a, const Clause& b);
-/// "A, then B" or "A after you B"; both parts without an order of their own.
+/// "A, then B" or "A after you B", of parts or sequences. Throws std::invalid_argument where the
+/// grammar has no such instruction.
 Instruction ordered(const Instruction& a, Order order, const Instruction& b);
 
 }  // namespace wordgaze::babyai

@@ -18,7 +18,7 @@ struct Objects {
 /// clauses.
 struct OneRoomTask {
   int objects = 4;
-  int clauses = 1;  ///< 1 to 4
+  int clauses = 1;  ///< 1 to 8
 };
 
 /// Shapes of the instructions that LevelGen draws.

@@ -59,6 +59,7 @@ class Verifier {
 
   Status verify_sequential(const grid::World&, const Task&, grid::Action);
   Status verify_in_order(const grid::World&, const Task&, grid::Action);
+  bool any_succeeds(const grid::World&, const Task&, grid::Action, Part);
   Status verify_part(const grid::World&, const Task&, grid::Action, Part);
   Status verify_clause(const grid::World&, const Task&, grid::Action, int k);
   Status check(const grid::World&, const Task&, grid::Action, int k);

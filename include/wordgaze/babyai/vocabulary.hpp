@@ -27,7 +27,8 @@ inline constexpr auto kWords = std::to_array<std::string_view>(
 
 inline constexpr int kVocabularySize = static_cast<int>(kWords.size());  ///< padding included
 
-/// The longest mission of the grammar, its comma counted as a word.
+/// The most words of a mission, its commas counted: enough for what all levels ask for. An
+/// instruction of one's own may be too long.
 inline constexpr int kMaxMissionWords = 73;
 
 constexpr std::string_view word(WordId id) { return kWords[id]; }

@@ -91,7 +91,8 @@ class Environment {
   /// Training tools, outside what the reference does:
 
   /// Gives this world another instruction: sentence, completion and step limit anew. Throws
-  /// std::invalid_argument when a description matches nothing.
+  /// std::invalid_argument when a description matches nothing, std::length_error when the sentence
+  /// has more than kMaxMissionWords.
   void set_instruction(const babyai::Instruction& instruction);
   /// Starts with a clause already done. Throws std::invalid_argument unless it is declarable and
   /// another one is left.

@@ -17,7 +17,7 @@ struct MaskQuality {
 
   /// Adds a decision. Returns whether all words agree.
   bool add(std::span<const float> alpha, const babyai::Sentence& sentence,
-           std::uint8_t bright_sub_tasks);
+           std::uint16_t bright_sub_tasks);
 
   double precision() const;
   double recall() const;
@@ -28,7 +28,7 @@ struct MaskQuality {
 class MaskDelay {
  public:
   /// Adds a decision of a lane, in order. `completed` are the sub-tasks that are done, as bits.
-  void add(std::size_t lane, bool begins, std::uint8_t completed, bool agrees);
+  void add(std::size_t lane, bool begins, std::uint16_t completed, bool agrees);
 
   std::int64_t changes() const { return changes_; }
   /// Changes at which the mask agreed at once.
@@ -39,7 +39,7 @@ class MaskDelay {
 
  private:
   struct Lane {
-    std::uint8_t completed = 0;
+    std::uint16_t completed = 0;
     int waiting = -1;  // steps since the change; -1: nothing to wait for
   };
   std::vector<Lane> lanes_;

@@ -19,20 +19,20 @@ constexpr std::array<std::string_view, 3> names(MaskTruth) {
 }
 
 /// The sub-tasks whose words stay bright, as bits: bit i is sub-task i.
-inline std::uint8_t bright_sub_tasks(MaskTruth truth, const babyai::Progress& progress) {
+inline std::uint16_t bright_sub_tasks(MaskTruth truth, const babyai::Progress& progress) {
   const auto completion = progress.completion(), enabled = progress.enabled();
-  std::uint8_t bright = 0;
+  std::uint16_t bright = 0;
   for (std::size_t i = 0; i < completion.size(); ++i) {
     const bool keep = truth == MaskTruth::completed ? !completion[i] : enabled[i] != 0;
     if (!keep) continue;
-    bright |= static_cast<std::uint8_t>(1u << i);
+    bright |= static_cast<std::uint16_t>(1u << i);
     if (truth == MaskTruth::current) break;
   }
   return bright;
 }
 
 /// The true mask of a word: 1 for bright sub-tasks.
-constexpr bool is_bright(int sub_task, std::uint8_t bright) {
+constexpr bool is_bright(int sub_task, std::uint16_t bright) {
   return sub_task >= 0 && ((bright >> sub_task) & 1u) != 0;
 }
 

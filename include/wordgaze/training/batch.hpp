@@ -26,7 +26,7 @@ struct Batch {
   model::Frames<float> frames;
   model::Missions missions;          ///< that frames.mission_of counts in
   std::vector<std::uint8_t> action;  ///< [N]
-  std::vector<std::uint8_t> bright;  ///< [N] the true mask, by sub-task
+  std::vector<std::uint16_t> bright;  ///< [N] the true mask, by sub-task
   std::vector<float> log_prob;       ///< [N] of the action when it was taken
   std::vector<float> advantage;      ///< [N] normalized
   std::vector<float> value_target;   ///< [N]

@@ -15,7 +15,7 @@ namespace wordgaze::training {
 /// cross-entropy between alpha and the true mask; equation (P7) in docs/math.md. Returns the loss
 /// and adds `scale` times its gradient to dlogits (+=), that of the logits of alpha.
 template <class Alpha, class Gradient>
-double mask_loss(const babyai::Sentence& sentence, std::uint8_t bright, const Alpha& alpha,
+double mask_loss(const babyai::Sentence& sentence, std::uint16_t bright, const Alpha& alpha,
                  double scale, Gradient&& dlogits) {
   using S = typename std::remove_cvref_t<Gradient>::Scalar;
   double loss = 0;

@@ -21,7 +21,8 @@ struct Rollout {
   std::vector<int> mission_of;                            ///< [N] index into those of its lane
   Matrix<float> keep;                                     ///< [1, N]
   Matrix<float> completion;                               ///< [sub_tasks, N]
-  std::vector<std::uint8_t> action, ended, bright;        ///< [N]; bright: true mask, by sub-task
+  std::vector<std::uint8_t> action, ended;                ///< [N]
+  std::vector<std::uint16_t> bright;                      ///< [N] the true mask, by sub-task
   std::vector<float> log_prob, value, reward, advantage;  ///< [N]
   std::vector<float> next_value;                          ///< [lanes]
   Matrix<float> start_h, start_c;  ///< [H, chunks * lanes] memory before each training sequence
