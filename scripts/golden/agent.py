@@ -282,7 +282,8 @@ def make(name, variant):
     loss = sum((torch.stack([r[key] for r in results]) * torch.tensor(weight)).sum()
                for key, weight in asked.items())
     if config["score_cost"] > 0:  # start and end are the same
-        loss = loss + config["score_cost"] / 2 * say(p, config)[0].square().sum()
+        beta = geometric(config["sharpness_start"], config["sharpness"], config["focus"])
+        loss = loss + config["score_cost"] / 2 * (beta * say(p, config)[0]).square().sum()
     loss.backward()
     for r in results:
         r.pop("mask_logits", None)

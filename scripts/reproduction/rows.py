@@ -19,6 +19,8 @@ GRID = Evaluation("grid", "--rooms 8,10,12 --objects 4,6,8,10,12", 30)
 GAZE = Evaluation("gaze", "--sample --transparency", 1, 300, 20)
 THREE = Evaluation("three", "--env Wordgaze-Three-N10-K4-v0", 2, cost=3)
 FOUR = Evaluation("four", "--env Wordgaze-Four-N10-K4-v0", 2, cost=4)
+SIX = Evaluation("six", "--env Wordgaze-Six-N10-K8-v0", 2, cost=8)
+EIGHT = Evaluation("eight", "--env Wordgaze-Eight-N10-K8-v0", 2, cost=12)
 LARGE = Evaluation("large", "--env Wordgaze-One-N16-K16-v0", 2, cost=4)
 KINDS = Evaluation("kinds", "", 2, 4000)  # of which some 1,100 name what was held out
 
@@ -43,14 +45,17 @@ ROWS = [
     Row("baseline", "grounding", "baseline.toml", evaluations=(GRID, GAZE, LARGE), main=True,
         model="single-baseline", about="no attention"),
 
+    Row("paper", "grounding", "paper.toml", evaluations=(GRID, GAZE),
+        about="attention as the paper has it"),
+
     Row("structured", "task", "structured.toml", init="single", evaluations=(OWN, GAZE), main=True,
         model="structured", about="attention and task attention"),
     Row("structured-attention", "task", "structured-attention.toml", init="single", main=True,
         about="attention only"),
     Row("structured-baseline", "task", "structured-baseline.toml", init="baseline", main=True,
         about="no attention"),
-    Row("structured-places", "task", "structured-places.toml", init="single", evaluations=(OWN, GAZE),
-        about="the module reads words place by place"),
+    Row("task-reader-sum", "task", "ablations/task-reader-sum.toml", init="single",
+        evaluations=(OWN, GAZE), about="the module reads the sum of the words: the paper's"),
     *(Row(name, "task", f"ablations/{name}.toml", init="single", about=about)
       for name, about in {
           "no-mask-loss": "without L_TA",
@@ -61,20 +66,18 @@ ROWS = [
           "no-half-done": "no half-done starts"}.items()),
     Row("no-pretraining", "task", "ablations/no-pretraining.toml", about="from fresh weights"),
 
-    Row("three-zero-shot", "beyond", "structured-places.toml", of="structured-places",
-        evaluations=(THREE, FOUR), about="trained with two clauses"),
-    Row("three", "beyond", "three.toml", init="structured-places", evaluations=(THREE, FOUR, GAZE),
-        model="three", about="trained with three, from `structured-places`"),
-    Row("four", "beyond", "four.toml", init="three", evaluations=(FOUR,),
-        about="trained with four, from `three`"),
+    Row("more-clauses", "beyond", "structured.toml", of="structured",
+        evaluations=(THREE, FOUR, SIX, EIGHT), about="trained with one and two clauses"),
 
-    Row("held-out", "kinds", "held-out.toml", evaluations=(KINDS,), about="attention"),
-    Row("held-out-baseline", "kinds", "held-out-baseline.toml", evaluations=(KINDS,),
-        about="no attention"),
-    Row("held-out-partial", "kinds", "held-out-partial.toml", evaluations=(KINDS,),
-        about="attention, half of the missions by one word"),
-    Row("held-out-partial-baseline", "kinds", "held-out-partial-baseline.toml", evaluations=(KINDS,),
-        about="no attention, half of the missions by one word"),
+    *(Row(name, "kinds", f"{name}.toml", evaluations=(KINDS,), about=about)
+      for name, about in {
+          "held-out": "attention",
+          "held-out-b": "attention, five other kinds",
+          "held-out-c": "attention, five other kinds",
+          "held-out-d": "attention, five other kinds",
+          "held-out-types": "attention, red balls and red boxes",
+          "held-out-colors": "attention, red, green and blue balls",
+          "held-out-baseline": "no attention"}.items()),
 
     *(Row(level, "babyai", f"babyai/{level}.toml", about=level)
       for level in ("GoToRedBallGrey", "GoToRedBall", "GoToLocal", "PickupLoc")),
@@ -84,16 +87,18 @@ ROWS = [
     *(Row(name, "ablation", f"ablations/{name}.toml", evaluations=(GRID,), about=about)
       for name, about in {
           "single-short": "as it is",
-          "no-object-prior": "no prior that words look at objects",
+          "no-object-prior": "no prior that objects are looked at",
           "no-pickup-first": "both verbs from the start",
           "no-balance": "verbs not balanced",
           "no-stretch": "no rooms that seem larger",
           "no-huddle": "no objects huddled around the target",
-          "no-gaze-floor": "s(M) = (M / max M)^2, no floor",
-          "entropy-base-e": "natural logarithm in the entropies",
-          "gaze-exponent-1": "s(M) with p = 1",
+          "gaze-sum": "the paper's sum of maps",
+          "no-focus": "a gaze that stays soft",
+          "no-word-choice": "words of type and color at the same time",
+          "no-score-cost": "scores that cost nothing",
+          "no-gaze-floor": "no floor of s(M)",
           "leaky-encoder": "leaky ReLU in the encoder (0.1)",
           "relu-encoder": "plain ReLU in the encoder"}.items()),
     Row("single-3x3", "ablation", "single-3x3.toml", evaluations=(GRID, GAZE),
-        about="encoder of two 3x3 convolutions, 2M frames"),
+        about="encoder of two 3x3 convolutions, sum of maps, 2M frames"),
 ]

@@ -304,7 +304,7 @@ void Agent<S, V, A>::attend_backward(const Weights& w, const Frames<S>& x, const
 template <std::floating_point S, class V, class A>
 void Agent<S, V, A>::refresh(Weights& w, Team& team) const {
   auto& [p, t] = w;
-  if (config.attention) A::refresh(p.attention, p.words, t.attention);
+  if (config.attention) A::refresh(config, p.attention, p.words, t.attention);
   V::refresh(*this, p.vision, t.attention, p.memory.input_weight, t.vision, team);
   Text::refresh(p.text, p.words, t.text);
 }

@@ -59,7 +59,7 @@ struct Config {
   double nowhere = 0.45;       ///< score of nowhere, as a share of a word's best match
   double word_choice = 8;      ///< exponent of the contest between what a word says
   double quiet_word = 0.3;     ///< size below which a word says nothing, as a share of the largest
-  double score_cost_start = 1e-6;  ///< weight of half the squared scores in the loss, at first
+  double score_cost_start = 1e-6;  ///< weight of half the squared beta S in the loss, at first
   double score_cost = 1e-7;        ///< and when the gaze has focused
   // Of the sum:
   double gaze_exponent = 2;  ///< p in s(M) = f + (1 - f) (M / max M)^p
@@ -112,7 +112,7 @@ struct Config {
                 "below which it falls silent",
                 0, 1},
         Setting{"score_cost_start", &C::score_cost_start,
-                "product: weight of half the squared scores in the loss, at the start", 0, 1},
+                "product: weight in the loss of half the squared scores, sharpened, at the start", 0, 1},
         Setting{"score_cost", &C::score_cost, "product: and when the gaze has focused", 0, 1},
         Setting{"gaze_exponent", &C::gaze_exponent,
                 "sum: p in s(M) = f + (1 - f) (M / max M)^p", 1, 16},

@@ -183,11 +183,12 @@ struct TableVision {
     if (d.config.attention) {
       auto dscores = dt.scores.topRows(d.alphabet.size());
       if (d.config.gaze == Gaze::product) {
-        // A word says no more than it needs: scores have a price.
+        // A word says no more than it needs: beta S, the logarithms of its maps, have a price.
         const auto price = static_cast<S>(focused(
             d.config.score_cost_start, d.config.score_cost, static_cast<double>(words.focus)));
+        const S beta = words.sharpness;
         dscores.leftCols(kSilentWord) +=
-            price * t.scores.topLeftCorner(d.alphabet.size(), kSilentWord);
+            price * beta * beta * t.scores.topLeftCorner(d.alphabet.size(), kSilentWord);
         Lexicon<S>::backward(d.config, t.lexicon, dt.lexicon,
                              dt.scores.topLeftCorner(nowhere(d) + 1, kSilentWord));
       }

@@ -114,13 +114,16 @@ struct TextVisualAttention {
     return true;
   }
 
-  static void refresh(const Params& p, In<S> words, Tables& t) {
+  static void refresh(const Config& c, const Params& p, In<S> words, Tables& t) {
     t.queries.noalias() = p.query * words;
     auto probes = t.probes.leftCols(kSilentWord);
     probes.noalias() = p.key.transpose() * t.queries;
     probes *= S(1) / std::sqrt(static_cast<S>(p.key.rows()));
     if (p.silent.size() > 0) t.probes.col(kSilentWord) = p.silent;
     t.focus = p.focus.size() > 0 ? p.focus(0) : S(1);
+    t.sharpness = c.gaze == Gaze::sum ? S(1)
+                                      : static_cast<S>(focused(c.sharpness_start, c.sharpness,
+                                                               static_cast<double>(t.focus)));
   }
   /// On entry dt.probes is the gradient of the probes; dt is used up.
   static void tables_backward(const Params& p, In<S> words, const Tables& t, Tables& dt,
@@ -138,7 +141,7 @@ struct TextVisualAttention {
   template <class ScoreOf>
   static void forward_words(const Config& c, const Tables& t, In<S> counts_of, ScoreOf&& score_of,
                             const Frames<S>& x, const Missions& missions, Cache& k) {
-    const S unit = unit_of(c), beta = beta_of(c, t);
+    const S unit = unit_of(c), beta = t.sharpness;
     with_size(counts_of.rows(), [&](auto size) {
       using Numbers = Entries<size()>;
       for (Index n = 0; n < counts_of.cols(); ++n) {
@@ -211,7 +214,7 @@ struct TextVisualAttention {
   template <class Take>
   static void backward_words(const Config& c, const Tables& t, In<S> counts_of, const Frames<S>& x,
                              const Missions& missions, In<S> alpha, const Cache& k, Take&& take) {
-    const S unit = unit_of(c), beta = beta_of(c, t);
+    const S unit = unit_of(c), beta = t.sharpness;
     with_size(k.gaze.rows(), [&](auto size) {
       using Numbers = Entries<size()>;
       for (Index n = 0; n < k.gaze.cols(); ++n) {
@@ -249,12 +252,6 @@ struct TextVisualAttention {
 
   /// Entropies are in units of entropy_base.
   static S unit_of(const Config& c) { return static_cast<S>(1 / std::log(c.entropy_base)); }
-  /// Inverse temperature of the maps, (A2).
-  static S beta_of(const Config& c, const Tables& t) {
-    if (c.gaze == Gaze::sum) return S(1);
-    return static_cast<S>(
-        focused(c.sharpness_start, c.sharpness, static_cast<double>(t.focus)));
-  }
 
   /// Added to the scores of entries that are not in view.
   static constexpr S kOutOfView = S(1e9);
