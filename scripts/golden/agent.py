@@ -127,17 +127,26 @@ def encode_text(p, mission, mask):
     return h[0]
 
 
-def say(p, config):
-    """What each word of the vocabulary says of each object [18, V], and the scores of nowhere [V]."""
+def effects_of(p, config):
+    """What each word of the vocabulary says of types and of colors, each [3, 6, V]."""
     codes = torch.cat([encode_view(p, config, [code] * VIEW * VIEW)[:, :1] for code in OBJECTS], dim=1)
     queries = p["attention.query"] @ p["words"]
     raw = (p["attention.key"] @ codes).T @ queries / math.sqrt(config["key_size"])
     table = raw.view(3, COLORS, VOCABULARY)
     everywhere = table.mean((0, 1), keepdim=True)
-    effects = [(table.mean(1, keepdim=True) - everywhere).expand_as(table),
-               (table.mean(0, keepdim=True) - everywhere).expand_as(table)]
-    sizes = torch.stack([e.square().mean((0, 1)).sqrt() for e in effects]).detach()
-    power = (sizes / sizes.max()) ** config["word_choice"]
+    return [(table.mean(1, keepdim=True) - everywhere).expand_as(table),
+            (table.mean(0, keepdim=True) - everywhere).expand_as(table)]
+
+
+def sizes(p, config):
+    return torch.stack([e.square().mean((0, 1)).sqrt() for e in effects_of(p, config)])
+
+
+def say(p, config):
+    """What each word of the vocabulary says of each object [18, V], and the scores of nowhere [V]."""
+    effects = effects_of(p, config)
+    size = sizes(p, config).detach()
+    power = (size / size.max()) ** config["word_choice"]
     kept = power / (power.sum(0) + config["quiet_word"] ** config["word_choice"])
     focus = config["focus"]
     said = sum((1 - focus * (1 - k)) * e for k, e in zip(kept, effects)).reshape(-1, VOCABULARY)
@@ -283,7 +292,7 @@ def make(name, variant):
                for key, weight in asked.items())
     if config["score_cost"] > 0:  # start and end are the same
         beta = geometric(config["sharpness_start"], config["sharpness"], config["focus"])
-        loss = loss + config["score_cost"] / 2 * (beta * say(p, config)[0]).square().sum()
+        loss = loss + config["score_cost"] * beta * sizes(p, config).sum()
     loss.backward()
     for r in results:
         r.pop("mask_logits", None)

@@ -127,7 +127,7 @@ def transparency(reports):
         values = []
         for report in reports:
             for key in path:
-                report = report[key] if report is not None else None
+                report = report.get(key) if report is not None else None
             if report is not None:
                 values.append(report)
         return spread(values) if values else None
@@ -139,11 +139,16 @@ def transparency(reports):
         figures[name] = {"pointing": mean(name, "pointing", "target"),
                          "chance": mean(name, "pointing", "target_chance"),
                          "mass": {role: mean(name, "mass_in_view", role, "share")
-                                  for role in ("target", "distractor", "empty", "wall")},
+                                  for role in ("target", "distractor", "empty", "wall", "nowhere")},
+                         "nowhere_out_of_view": mean(name, "mass_out_of_view", "nowhere", "share"),
                          "deletion": deletion("brightest"), "deletion_others": deletion("others"),
                          "insertion": mean(name, "faithfulness_in_view", "insertion", "1", "brightest"),
                          "insertion_others": mean(name, "faithfulness_in_view", "insertion", "1",
                                                   "others")}
+    if figures["gaze"]["pointing"]:
+        figures["gaze"] |= {"over_half_out_of_view": mean("gaze", "glow_out_of_view", "over_half"),
+                            "spotlight": {role: mean("gaze", "spotlight_in_view", role, "share")
+                                          for role in ("target", "distractor")}}
     for name, keys in (("words", ("color_pointing", "type_pointing", "content_weight",
                                   "function_weight")), ("mask", ("f1", "delay", "alpha_bright", "alpha_dark"))):
         figures[name] = {key: mean(name, key) for key in keys}

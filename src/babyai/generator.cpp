@@ -66,8 +66,7 @@ void check(const Layout& layout, const Task& task) {
   const auto exists = [&](grid::ObjectId id) { return id < world.objects.size(); };
   const Instruction& i = task.instruction;
   expect(world.grid.contains(world.agent), "put the agent nowhere; call place_agent");
-  expect(is_grammatical(i),
-         "wrote no instruction of the grammar; use single, both and ordered");
+  expect(is_grammatical(i), "wrote no instruction of the grammar; use single, both and ordered");
   expect(level.rule != Rule::instruction || i.clauses() > 0, "wrote no instruction");
   expect(exists(task.target.object) && exists(task.target.other), "named a target that is none");
   expect(task.start_carrying == grid::kNothing ||

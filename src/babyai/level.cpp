@@ -37,10 +37,10 @@ bool is_built_in(std::string_view id) {
 // The three ids that are written most like this one.
 std::string nearest_ids(std::string_view id) {
   std::vector<std::string> ids = level_ids();
-  ids.insert(ids.end(), {"Wordgaze-One-N8-K4-v0", "Wordgaze-Two-N8-K4-v0",
-                         "Wordgaze-Three-N8-K4-v0", "Wordgaze-Four-N8-K4-v0",
-                         "Wordgaze-Five-N8-K8-v0", "Wordgaze-Six-N8-K8-v0",
-                         "Wordgaze-Seven-N8-K8-v0", "Wordgaze-Eight-N8-K8-v0"});
+  ids.insert(ids.end(),
+             {"Wordgaze-One-N8-K4-v0", "Wordgaze-Two-N8-K4-v0", "Wordgaze-Three-N8-K4-v0",
+              "Wordgaze-Four-N8-K4-v0", "Wordgaze-Five-N8-K8-v0", "Wordgaze-Six-N8-K8-v0",
+              "Wordgaze-Seven-N8-K8-v0", "Wordgaze-Eight-N8-K8-v0"});
   std::stable_sort(ids.begin(), ids.end(), [&](const std::string& a, const std::string& b) {
     return edit_distance(id, a) < edit_distance(id, b);
   });

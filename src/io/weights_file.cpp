@@ -19,9 +19,8 @@ constexpr std::string_view kFirstFormat = "1";
 struct Former {
   std::string_view key, value;
 };
-constexpr std::array kFormerSettings{
-    Former{"gaze", "\"sum\""}, Former{"task_reader", "\"sum\""}, Former{"entropy_base", "49"},
-    Former{"sub_tasks", "4"}};
+constexpr std::array kFormerSettings{Former{"gaze", "\"sum\""}, Former{"task_reader", "\"sum\""},
+                                     Former{"entropy_base", "49"}, Former{"sub_tasks", "4"}};
 
 std::string brought_up_to_date(const std::string& toml) {
   std::istringstream lines(toml);

@@ -41,15 +41,14 @@ void Batch::gather(const model::Config& config, const Rollout& r, std::span<cons
     for (Index t = 0; t < shape.steps; ++t) {
       const Index to = shape.column(t, b), column = r.column(sequence, t);
       const auto i = static_cast<std::size_t>(to), from = static_cast<std::size_t>(column);
-      const bool changed =
-          model::scans(config) && t > 0 &&
-          r.completion.col(column) != r.completion.col(r.column(sequence, t - 1));
+      const bool changed = model::scans(config) && t > 0 &&
+                           r.completion.col(column) != r.completion.col(r.column(sequence, t - 1));
       if (r.mission_of[from] != known || changed) {
         known = r.mission_of[from];
         model::Mission mission{r.mission(r.lane(sequence), column), {}};
         if (model::scans(config)) {
-          for (Index i = 0; i < r.completion.rows(); ++i) {
-            mission.done[static_cast<std::size_t>(i)] = r.completion(i, column) > 0;
+          for (Index k = 0; k < r.completion.rows(); ++k) {
+            mission.done[static_cast<std::size_t>(k)] = r.completion(k, column) > 0;
           }
         }
         local = missions.index_of(mission);

@@ -37,9 +37,9 @@ TEST_P(GeneratedMission, IsReadAsItWasMeant) {
 std::vector<std::string> babyai_ids() {
   std::vector<std::string> ids = level_ids();
   std::erase_if(ids, [](const std::string& id) { return !id.starts_with("BabyAI-"); });
-  ids.insert(ids.end(), {"Wordgaze-One-N8-K4-v0", "Wordgaze-Two-N8-K4-v0",
-                         "Wordgaze-Three-N8-K4-v0", "Wordgaze-Four-N8-K4-v0",
-                         "Wordgaze-Five-N8-K8-v0", "Wordgaze-Eight-N8-K8-v0"});
+  ids.insert(ids.end(),
+             {"Wordgaze-One-N8-K4-v0", "Wordgaze-Two-N8-K4-v0", "Wordgaze-Three-N8-K4-v0",
+              "Wordgaze-Four-N8-K4-v0", "Wordgaze-Five-N8-K8-v0", "Wordgaze-Eight-N8-K8-v0"});
   return ids;
 }
 
@@ -76,20 +76,20 @@ TEST(ParseMission, PointsAtTheFirstWordThatDoesNotFit) {
   struct Case {
     std::string text, column_of;
   };
-  for (const Case& c :
-       std::vector<Case>{{"walk to the ball", "walk"},
-                         {"go to ball", "ball"},
-                         {"go to the rde ball", "rde"},
-                         {"go to the red", ""},
-                         {"go to the ball quickly", "quickly"},
-                         {"go to the ball, pick up the key", "pick"},
-                         {"go to the ball on your back", "back"},
-                         {"put the ball near the key", "near"},
-                         {"go to the ball and open the door and open a door", "and open a"},
-                         {"go to a key after you go to a box, then open a door after you", "after you"},
-                         {"", ""},
-                         {"Go to the ball", "Go"},
-                         {"go to the ball.", "ball."}}) {
+  for (const Case& c : std::vector<Case>{
+           {"walk to the ball", "walk"},
+           {"go to ball", "ball"},
+           {"go to the rde ball", "rde"},
+           {"go to the red", ""},
+           {"go to the ball quickly", "quickly"},
+           {"go to the ball, pick up the key", "pick"},
+           {"go to the ball on your back", "back"},
+           {"put the ball near the key", "near"},
+           {"go to the ball and open the door and open a door", "and open a"},
+           {"go to a key after you go to a box, then open a door after you", "after you"},
+           {"", ""},
+           {"Go to the ball", "Go"},
+           {"go to the ball.", "ball."}}) {
     try {
       parse_mission(c.text);
       FAIL() << c.text;
@@ -105,7 +105,8 @@ TEST(ParseMission, TakesEightClausesAndNotNine) {
   std::string text = "go to a ball";
   for (int n = 1; n < 8; ++n) text += n % 2 == 0 ? ", then go to a ball" : " and go to a ball";
   EXPECT_EQ(parse_mission(text).clauses(), 8);
-  const auto what = message_of<std::invalid_argument>([&] { parse_mission(text + ", then open a door"); });
+  const auto what =
+      message_of<std::invalid_argument>([&] { parse_mission(text + ", then open a door"); });
   EXPECT_TRUE(contains(what, "expected at most 8 clauses, found 'open'")) << what;
 }
 

@@ -241,7 +241,8 @@ TEST(Verifier, GoesThroughAChainInItsOrderOfDoing) {
   constexpr std::string_view kMission =
       "go to the red ball, then go to the red key and go to the blue ball after you go to the red "
       "box, then go to the red key";
-  const std::vector<std::string_view> rows{".X.", "K>B", ".b."};  // right: the first of the sentence
+  const std::vector<std::string_view> rows{".X.", "K>B",
+                                           ".b."};  // right: the first of the sentence
   Play play(kMission, rows, DoneMode::sequential);
   EXPECT_EQ(play.declarable(), (std::vector{0, 0, 0, 1, 0}));
   EXPECT_EQ(play({left, done}), Status::ongoing);

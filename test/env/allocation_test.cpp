@@ -51,11 +51,10 @@ TEST_P(Allocation, NeitherStepsNorViewsNorResetsAllocateAfterWarmUp) {
 
 INSTANTIATE_TEST_SUITE_P(, Allocation,
                          testing::Values("BabyAI-GoToLocal-v0", "Wordgaze-Two-N8-K4-v0",
-                                         "Wordgaze-Eight-N8-K8-v0",
-                                         "BabyAI-BossLevel-v0", "BabyAI-Open-v0",
-                                         "BabyAI-MiniBossLevel-v0", "BabyAI-Unlock-v0",
-                                         "MiniGrid-MultiRoom-N6-v0", "MiniGrid-LockedRoom-v0",
-                                         "MiniGrid-Fetch-8x8-N3-v0",
+                                         "Wordgaze-Eight-N8-K8-v0", "BabyAI-BossLevel-v0",
+                                         "BabyAI-Open-v0", "BabyAI-MiniBossLevel-v0",
+                                         "BabyAI-Unlock-v0", "MiniGrid-MultiRoom-N6-v0",
+                                         "MiniGrid-LockedRoom-v0", "MiniGrid-Fetch-8x8-N3-v0",
                                          "MiniGrid-Dynamic-Obstacles-8x8-v0"),
                          [](const auto& test) {
                            std::string name = test.param;

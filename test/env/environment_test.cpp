@@ -317,10 +317,9 @@ TEST(Environment, JoinsThreeAndFourClausesInEveryWayOfTheGrammar) {
 }
 
 TEST(Environment, ChainsMoreThanFourClauses) {
-  for (const auto& [id, clauses] : {std::pair{"Wordgaze-Five-N8-K8-v0", 5},
-                                    std::pair{"Wordgaze-Six-N8-K8-v0", 6},
-                                    std::pair{"Wordgaze-Seven-N8-K8-v0", 7},
-                                    std::pair{"Wordgaze-Eight-N8-K8-auto-v0", 8}}) {
+  for (const auto& [id, clauses] :
+       {std::pair{"Wordgaze-Five-N8-K8-v0", 5}, std::pair{"Wordgaze-Six-N8-K8-v0", 6},
+        std::pair{"Wordgaze-Seven-N8-K8-v0", 7}, std::pair{"Wordgaze-Eight-N8-K8-auto-v0", 8}}) {
     Environment env(id);
     std::set<int> afters, parts;
     int with_after = 0;
@@ -340,12 +339,14 @@ TEST(Environment, ChainsMoreThanFourClauses) {
       ASSERT_EQ(done, clauses);
       parts.insert(count);
       grid::ObjectSet targets = 0;
-      for (int k = 0; k < clauses; ++k) targets |= env.meaning().object[static_cast<std::size_t>(k)];
+      for (int k = 0; k < clauses; ++k)
+        targets |= env.meaning().object[static_cast<std::size_t>(k)];
       ASSERT_EQ(std::popcount(targets), clauses) << seed;
     }
     EXPECT_NEAR(with_after, 200, 40) << id;
     EXPECT_EQ(*parts.begin(), (clauses + 1) / 2) << id;  // all pairs
-    EXPECT_EQ(afters.size(), static_cast<std::size_t>(clauses)) << id;  // none, or before any clause
+    EXPECT_EQ(afters.size(), static_cast<std::size_t>(clauses))
+        << id;  // none, or before any clause
   }
 }
 

@@ -121,12 +121,12 @@ TEST_P(InstructionLevel, SucceedsExactlyWhenAllClausesAreCompleted) {
 
 std::vector<std::string> all_ids() {
   std::vector<std::string> ids = babyai::level_ids();
-  ids.insert(ids.end(),
-             {"Wordgaze-One-N8-K4-v0", "Wordgaze-Two-N8-K4-v0", "Wordgaze-Two-N6-K5-v0",
-              "Wordgaze-Two-N8-K4-auto-v0", "Wordgaze-Three-N8-K4-v0", "Wordgaze-Four-N10-K5-v0",
-              "Wordgaze-Three-N8-K4-auto-v0", "Wordgaze-One-N64-K18-v0",
-              "Wordgaze-Six-N8-K8-v0", "Wordgaze-Eight-N6-K8-v0", "Wordgaze-Eight-N8-K8-v0",
-              "Wordgaze-Eight-N8-K8-auto-v0"});
+  ids.insert(
+      ids.end(),
+      {"Wordgaze-One-N8-K4-v0", "Wordgaze-Two-N8-K4-v0", "Wordgaze-Two-N6-K5-v0",
+       "Wordgaze-Two-N8-K4-auto-v0", "Wordgaze-Three-N8-K4-v0", "Wordgaze-Four-N10-K5-v0",
+       "Wordgaze-Three-N8-K4-auto-v0", "Wordgaze-One-N64-K18-v0", "Wordgaze-Six-N8-K8-v0",
+       "Wordgaze-Eight-N6-K8-v0", "Wordgaze-Eight-N8-K8-v0", "Wordgaze-Eight-N8-K8-auto-v0"});
   return ids;
 }
 

@@ -38,5 +38,35 @@ TEST(Mass, OfEachMapIsOne) {
   EXPECT_NEAR(total, 1, 1e-12);
 }
 
+TEST(Mass, OfNowhereIsPartOfTheWhole) {
+  Roles roles;
+  roles.fill(Role::empty);
+  roles[0] = Role::target;
+  std::array<float, grid::kViewCells> map{};
+  map[0] = 0.25f;
+  Mass mass;
+  mass.add(map, roles, 0.75);
+  EXPECT_DOUBLE_EQ(share(mass, Role::target), 0.25);
+  EXPECT_DOUBLE_EQ(mass.nowhere.value(), 0.75);
+}
+
+TEST(Glow, IsOfTheBrightestObject) {
+  Roles roles;
+  roles.fill(Role::wall);
+  std::array<float, grid::kViewCells> map{};
+  map[9] = 0.9f;  // a wall
+  Glow glow;
+  glow.add(map, roles);
+  EXPECT_EQ(glow.brightest.count, 0);
+  roles[3] = roles[4] = Role::distractor;
+  map[3] = 0.125f;
+  map[4] = 0.25f;
+  glow.add(map, roles);
+  map[4] = 0.75f;
+  glow.add(map, roles);
+  EXPECT_DOUBLE_EQ(glow.brightest.value(), 0.5);
+  EXPECT_DOUBLE_EQ(glow.over_half.value(), 0.5);
+}
+
 }  // namespace
 }  // namespace wordgaze::evaluation

@@ -130,27 +130,23 @@ TEST_P(AgentVariant, AllocatesNothingAfterTheFirstPass) {
   Eigen::internal::set_is_malloc_allowed(true);
 }
 
-INSTANTIATE_TEST_SUITE_P(Readings, AgentVariant,
-                         testing::Values(variant(false, false), variant(true, false),
-                                         with_sum(false), with_sum(false, 1), with_sum(false, 3),
-                                         with_sum(true), with_sum(true, 1),
-                                         with_reader(Reader::sum, Gaze::product),
-                                         with_reader(Reader::places, Gaze::sum),
-                                         with_reader(Reader::scan, Gaze::sum),
-                                         with_reader(Reader::scan, Gaze::product),
-                                         with_completion_input(),
-                                         with_patches(variant(false, false)),
-                                         with_patches(variant(true, false)),
-                                         with_patches(variant(true, true, 1))),
-                         [](const auto& variant_info) {
-                           const Config& c = variant_info.param;
-                           std::string name = c.encoder == Encoder::patch ? "Patch" : "";
-                           if (!c.attention) return name + "Baseline";
-                           if (c.completion_input) name += "CompletionInput";
-                           if (c.task_attention) name += "Task_" + std::string(name_of(c.task_reader));
-                           name += c.gaze == Gaze::sum ? "Sum" : "Product";
-                           return name + "P" + std::to_string(static_cast<int>(c.gaze_exponent));
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Readings, AgentVariant,
+    testing::Values(variant(false, false), variant(true, false), with_sum(false),
+                    with_sum(false, 1), with_sum(false, 3), with_sum(true), with_sum(true, 1),
+                    with_reader(Reader::sum, Gaze::product), with_reader(Reader::places, Gaze::sum),
+                    with_reader(Reader::scan, Gaze::sum), with_reader(Reader::scan, Gaze::product),
+                    with_completion_input(), with_patches(variant(false, false)),
+                    with_patches(variant(true, false)), with_patches(variant(true, true, 1))),
+    [](const auto& variant_info) {
+      const Config& c = variant_info.param;
+      std::string name = c.encoder == Encoder::patch ? "Patch" : "";
+      if (!c.attention) return name + "Baseline";
+      if (c.completion_input) name += "CompletionInput";
+      if (c.task_attention) name += "Task_" + std::string(name_of(c.task_reader));
+      name += c.gaze == Gaze::sum ? "Sum" : "Product";
+      return name + "P" + std::to_string(static_cast<int>(c.gaze_exponent));
+    });
 
 TEST(Agent, AttentionIsADistribution) {
   AgentFixture<double> f(variant(true, true));

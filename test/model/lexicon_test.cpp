@@ -15,12 +15,13 @@ constexpr int kFirstObject = 3;  // codes of one_room: unseen, empty, wall, then
 struct LexiconTest : testing::Test {
   Design design{{}, CellAlphabet::one_room()};
   Lexicon<double>::Tables tables;
-  Matrix<double> scores = random_matrix<double>(22, babyai::kVocabularySize);
+  Matrix<double> scores = random_matrix<double>(22, Index{babyai::kVocabularySize});
 
   LexiconTest() { Lexicon<double>::resize(design, tables); }
   void speak(double focus) { Lexicon<double>::forward(design.config, focus, tables, scores); }
   int code(int type, int color) const {
-    return design.alphabet.find({static_cast<std::uint8_t>(type), static_cast<std::uint8_t>(color), 0});
+    return design.alphabet.find(
+        {static_cast<std::uint8_t>(type), static_cast<std::uint8_t>(color), 0});
   }
 };
 

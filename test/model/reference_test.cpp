@@ -184,8 +184,8 @@ TEST_P(ReferenceGolden, AgreesOnTheGradientOfEveryParameter) {
 
 INSTANTIATE_TEST_SUITE_P(PyTorch, ReferenceGolden,
                          testing::Values("baseline", "attention_p1", "attention_p2",
-                                         "task_attention", "attention_3x3", "baseline_3x3", "product",
-                                         "product_focused", "product_task_sum",
+                                         "task_attention", "attention_3x3", "baseline_3x3",
+                                         "product", "product_focused", "product_task_sum",
                                          "product_task_scan"),
                          [](const auto& variant) { return std::string(variant.param); });
 INSTANTIATE_TEST_SUITE_P(PyTorch, ReferenceGaze,

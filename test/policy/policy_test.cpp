@@ -212,7 +212,7 @@ TEST(Policy, DoesNotGrowWithTheMissionsItHasHeard) {
   const auto trained = agent_with(with(4, false));
   NetworkPolicy policy(trained);
   MissionTable table(3);
-  const int held = table.acquire(kBall.sentence);
+  const int held = table.acquire({kBall.sentence, {}});
   Observation o = kBall;
   for (int k = 0; k < 1000; ++k) {
     o.sentence = {};
@@ -220,7 +220,7 @@ TEST(Policy, DoesNotGrowWithTheMissionsItHasHeard) {
       o.sentence.append(static_cast<babyai::WordId>(1 + (k >> (2 * word)) % 4 + 5 * word), 0);
     }
     o.sentence.append(static_cast<babyai::WordId>(1 + k % 50), 0);
-    table.release(table.acquire(o.sentence));
+    table.release(table.acquire({o.sentence, {}}));
     policy.observe(0, o);
     policy.decide(Greedy{});
   }

@@ -78,12 +78,12 @@ std::string recorded(RecordOptions options) {
 }
 
 TEST(Trace, ReplaysWhatItRecords) {
-  const std::string text = recorded({.ids = {"BabyAI-MiniBossLevel-v0", "Wordgaze-Two-N8-K4-v0",
-                                             "Wordgaze-Eight-N8-K8-v0",
-                                             "MiniGrid-Dynamic-Obstacles-6x6-v0"},
-                                     .first_seed = 3,
-                                     .end_seed = 5,
-                                     .steps = 50});
+  const std::string text =
+      recorded({.ids = {"BabyAI-MiniBossLevel-v0", "Wordgaze-Two-N8-K4-v0",
+                        "Wordgaze-Eight-N8-K8-v0", "MiniGrid-Dynamic-Obstacles-6x6-v0"},
+                .first_seed = 3,
+                .end_seed = 5,
+                .steps = 50});
   std::istringstream trace(text);
   std::ostringstream details;
   const ReplayReport report = replay(trace, details);

@@ -55,7 +55,32 @@ bool same_bits(const policy::Agent::Params& a, const policy::Agent::Params& b) {
 TrainConfig small_patches(int threads) {
   TrainConfig c = small(threads);
   c.model.encoder = model::Encoder::patch;
+  c.model.gaze = model::Gaze::sum;
   return c;
+}
+
+TEST(Focus, GrowsFromItsStartToItsEnd) {
+  TrainConfig c;
+  c.frames = 100;
+  c.ppo.focus_start = 0.4;
+  c.ppo.focus_end = 0.8;
+  EXPECT_EQ(focus_at(c, 0), 0);
+  EXPECT_EQ(focus_at(c, 40), 0);
+  EXPECT_NEAR(focus_at(c, 60), 0.5, 1e-12);
+  EXPECT_EQ(focus_at(c, 80), 1);
+  c.ppo.focus_start = c.ppo.focus_end = 0;
+  EXPECT_EQ(focus_at(c, 0), 1);
+}
+
+TEST(Focus, NeverFalls) {
+  Trainer first(small());
+  auto params = first.params();
+  EXPECT_EQ(params.attention.focus(0), 0);
+  params.attention.focus(0) = 1;
+  Trainer second(small());
+  second.set_params(params);
+  second.update();
+  EXPECT_EQ(second.params().attention.focus(0), 1);
 }
 
 struct TrainerVariant : testing::TestWithParam<TrainConfig> {};

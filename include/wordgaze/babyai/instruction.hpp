@@ -51,7 +51,7 @@ struct Instruction {
   std::array<Clause, kMaxClauses> clause{};
   std::array<Order, kMaxClauses> order{};  ///< of a clause and the one before it; [0] means nothing
   std::uint8_t count = 0;                  ///< of clauses
-  bool strict = false;  ///< with an order: doing a later part first is a failure
+  bool strict = false;                     ///< with an order: doing a later part first is a failure
 
   /// Clauses [begin, end) of one part.
   struct Part {

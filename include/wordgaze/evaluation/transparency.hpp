@@ -34,8 +34,8 @@ class Transparency final : public DecisionObserver {
 
   /// Of M; empty for the baseline, as are filter(), words() and weights().
   const MapReport& gaze() const { return gaze_; }
-  /// Of s(M), what the view is multiplied with, where a target is in view; and of s(M) - f, what the
-  /// gaze adds to the floor.
+  /// Of s(M), what the view is multiplied with, where a target is in view; and of s(M) - f, what
+  /// the gaze adds to the floor.
   const Mass& filter() const { return filter_; }
   const Mass& spotlight() const { return spotlight_; }
   /// Of M, and of (s(M) - f) / (1 - f), where no target is in view.

@@ -19,9 +19,9 @@ void put_parameters(TensorMap& map, const std::string& prefix, const P& params) 
 }
 
 /// Fills a tree that has its sizes. Where optional(path) holds, a tensor may be missing: the leaf
-/// then stays as it is. The vocabulary grows at its end, so leaves named `words` may have fewer columns: those
-/// of newer words stay as they are. Throws std::runtime_error that names the tensor for anything
-/// else.
+/// then stays as it is. The vocabulary grows at its end, so leaves named `words` may have fewer
+/// columns: those of newer words stay as they are. Throws std::runtime_error that names the tensor
+/// for anything else.
 template <nn::Tree P, class Optional>
 void get_parameters(const TensorMap& map, const std::string& prefix, Optional&& optional,
                     P& params) {
@@ -31,7 +31,8 @@ void get_parameters(const TensorMap& map, const std::string& prefix, Optional&& 
         if (leaf.size() == 0 || (optional(path) && !map.tensors.contains(name))) return;
         if constexpr (!std::remove_cvref_t<decltype(leaf)>::IsVectorAtCompileTime) {
           const Tensor& tensor = map.tensor(name);
-          if (path.names[path.depth - 1] == "words" && tensor.shape.size() == 2 && tensor.shape[1] < leaf.cols()) {
+          if (path.names[path.depth - 1] == "words" && tensor.shape.size() == 2 &&
+              tensor.shape[1] < leaf.cols()) {
             std::remove_cvref_t<decltype(leaf)> known(leaf.rows(), tensor.shape[1]);
             copy_tensor(map, name, known);
             leaf.leftCols(known.cols()) = known;

@@ -14,8 +14,8 @@ inline constexpr std::string_view kWeightsFormat = "2";
 /// file and what is wrong with it.
 TensorMap read_weights_file(const std::filesystem::path& path);
 
-/// The configuration in it, as TOML. In a file of format 1 it also names what was a matter of course
-/// then and is no more, so that the agent is read as what it was.
+/// The configuration in it, as TOML. In a file of format 1 it also names what was a matter of
+/// course then and is no more, so that the agent is read as what it was.
 std::string configuration_text(const TensorMap& map);
 
 /// Throws std::runtime_error: "checkpoint 'path': what".

@@ -197,7 +197,7 @@ void Agent<S, V, A>::forward(const Weights& w, const Frames<S>& x, const Mission
                              In<S> mission_features, Cache& k, Outputs<S>& y) const {
   const auto& [p, t] = w;
   fit(x.shape, missions.longest, k, y);
-  V::forward(*this, p.vision, t.vision, x.cells, k.vision);  // (V): O~
+  V::forward(*this, p.vision, t.vision, x.cells, k.vision);              // (V): O~
   if (config.attention) attend(w, x, missions, mission_features, k, y);  // s(M)
   // (F1), (F2): W_x (O~ * s(M))
   V::read(*this, t.vision, p.memory.input_weight, x.cells, scale(k), k.vision, k.product);
@@ -206,7 +206,8 @@ void Agent<S, V, A>::forward(const Weights& w, const Frames<S>& x, const Mission
   auto h = k.features.topRows(config.memory_size);
   Memory::forward(p.memory, x.shape, k.product, x.keep, x.start, k.memory, h);
   for (Index n = 0; n < x.shape.columns(); ++n) {
-    k.features.col(n).tail(config.text_size) = mission_features.col(x.mission(n)).head(config.text_size);
+    k.features.col(n).tail(config.text_size) =
+        mission_features.col(x.mission(n)).head(config.text_size);
   }
   // (H): policy and value
   Head<S>::forward(p.actor, k.features, k.actor, y.logits);
@@ -220,10 +221,10 @@ void Agent<S, V, A>::attend(const Weights& w, const Frames<S>& x, const Missions
   V::with_scores(*this, t.vision, t.attention, x.cells, k.vision,
                  [&](const auto& counts, auto&& score_of) {
                    A::forward_words(config, t.attention, counts, score_of, x, missions,
-                                    k.attention);                     // (A1)-(A4): A, w
+                                    k.attention);  // (A1)-(A4): A, w
                    if (config.task_attention) mask(w, x, missions, mission_features, k, y);
                    A::forward_gaze(config, counts, score_of, x, missions, k.alpha,
-                                   k.attention);                      // (A5), (A6): M, s(M)
+                                   k.attention);  // (A5), (A6): M, s(M)
                  });
 }
 
@@ -323,8 +324,7 @@ void Agent<S, V, A>::reduce(const Weights& w, std::span<Weights> grads, Team& te
       [&](int worker) -> auto& { return grads[static_cast<std::size_t>(worker)].tables.vision; },
       dp.memory.input_weight, team);
   Text::table_backward(p.text, p.words, dt.text, dp.text, dp.words);
-  V::tables_backward(*this, t.vision, t.attention, dt.vision, dt.attention,
-                     dp.vision);
+  V::tables_backward(*this, t.vision, t.attention, dt.vision, dt.attention, dp.vision);
   if (config.attention) {
     A::tables_backward(p.attention, p.words, t.attention, dt.attention, dp.attention, dp.words);
   }

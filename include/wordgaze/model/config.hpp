@@ -35,32 +35,32 @@ constexpr std::array<std::string_view, 3> names(Reader) { return {"sum", "places
 
 /// Sizes and readings of the network, named as in the paper; docs/reading.md gives the reasons.
 struct Config {
-  bool attention = true;          ///< false: the baseline, F = O~
-  bool task_attention = false;    ///< the Task Attention Module
+  bool attention = true;              ///< false: the baseline, F = O~
+  bool task_attention = false;        ///< the Task Attention Module
   Reader task_reader = Reader::scan;  ///< how it reads the mission
-  bool completion_input = false;  ///< c_t goes to the memory, beside the filtered view
+  bool completion_input = false;      ///< c_t goes to the memory, beside the filtered view
   Encoder encoder = Encoder::cell;
-  int channels = 16;         ///< C: feature maps of the visual encoding O~
-  int word_size = 16;        ///< E: word embedding g~
-  int key_size = 16;         ///< d_k
-  int memory_size = 64;      ///< LSTM
-  int text_size = 32;        ///< GRU over the mission
-  int head_size = 64;        ///< hidden layer of actor and of critic
-  int task_size = 64;        ///< hidden layer of the Task Attention Module
-  int task_words = 32;       ///< outputs of the Task Attention Module: longest mission it takes
-  int sub_tasks = 16;         ///< length of the completion vector c_t
+  int channels = 16;     ///< C: feature maps of the visual encoding O~
+  int word_size = 16;    ///< E: word embedding g~
+  int key_size = 16;     ///< d_k
+  int memory_size = 64;  ///< LSTM
+  int text_size = 32;    ///< GRU over the mission
+  int head_size = 64;    ///< hidden layer of actor and of critic
+  int task_size = 64;    ///< hidden layer of the Task Attention Module
+  int task_words = 32;   ///< outputs of the Task Attention Module: longest mission it takes
+  int sub_tasks = 16;    ///< length of the completion vector c_t
   Gaze gaze = Gaze::product;
   double entropy_base = std::numbers::e;  ///< of the logarithm in the row entropies H (eq. 2)
   double gaze_floor = 0.1;                ///< f: what s(M) leaves of the darkest cells
-  double object_prior = 2;  ///< initial score of objects over other cells; 0: none
+  double object_prior = 2;                ///< initial score of objects over other cells; 0: none
   // Of the product:
   double sharpness_start = 4;  ///< of the words' maps: their inverse temperature, at first
   double sharpness = 32;       ///< and when the gaze has focused
   double nowhere = 0.45;       ///< score of nowhere, as a share of a word's best match
   double word_choice = 8;      ///< exponent of the contest between what a word says
   double quiet_word = 0.3;     ///< size below which a word says nothing, as a share of the largest
-  double score_cost_start = 1e-6;  ///< weight of half the squared beta S in the loss, at first
-  double score_cost = 1e-7;        ///< and when the gaze has focused
+  double score_cost_start = 2e-5;  ///< weight in the loss of the sizes of what words say, at first
+  double score_cost = 1.3e-6;      ///< and when the gaze has focused
   // Of the sum:
   double gaze_exponent = 2;  ///< p in s(M) = f + (1 - f) (M / max M)^p
   double encoder_bias = 1;   ///< initial bias of the visual encoder: near-linear at the start
@@ -87,7 +87,8 @@ struct Config {
         Setting{"task_size", &C::task_size, "hidden layer of the Task Attention Module", 1, 4096},
         Setting{"task_words", &C::task_words,
                 "longest mission, in words, that the Task Attention Module takes", 1, 73},
-        Setting{"sub_tasks", &C::sub_tasks, "length of the completion vector c_t", 1, 16, "clauses"},
+        Setting{"sub_tasks", &C::sub_tasks, "length of the completion vector c_t", 1, 16,
+                "clauses"},
         Setting{"gaze", &C::gaze,
                 "how the maps of the words become M: their product, which says \"red\" and "
                 "\"ball\" and can say nowhere, or the paper's sum"},
@@ -103,19 +104,21 @@ struct Config {
         Setting{"nowhere", &C::nowhere,
                 "product: score of nowhere, as a share of what a word scores on its best match", 0,
                 1},
-        Setting{"word_choice", &C::word_choice,
-                "product: exponent of the contest by which a word speaks of type or of color; 0: no "
-                "contest, each word keeps a third of both",
-                0, 64},
+        Setting{
+            "word_choice", &C::word_choice,
+            "product: exponent of the contest by which a word speaks of type or of color; 0: no "
+            "contest, each word keeps a third of both",
+            0, 64},
         Setting{"quiet_word", &C::quiet_word,
                 "product: size of what a word says, as a share of the largest of the vocabulary, "
                 "below which it falls silent",
                 0, 1},
         Setting{"score_cost_start", &C::score_cost_start,
-                "product: weight in the loss of half the squared scores, sharpened, at the start", 0, 1},
+                "product: weight in the loss of the sizes of all that words say, at the start", 0,
+                1},
         Setting{"score_cost", &C::score_cost, "product: and when the gaze has focused", 0, 1},
-        Setting{"gaze_exponent", &C::gaze_exponent,
-                "sum: p in s(M) = f + (1 - f) (M / max M)^p", 1, 16},
+        Setting{"gaze_exponent", &C::gaze_exponent, "sum: p in s(M) = f + (1 - f) (M / max M)^p", 1,
+                16},
         Setting{"encoder_bias", &C::encoder_bias,
                 "initial bias of the visual encoder (1: near-linear at the start)", -4, 4},
         Setting{
@@ -133,7 +136,8 @@ inline double focused(double start, double end, double focus) {
   return start > 0 && end > 0 ? start * std::pow(end / start, focus) : focus < 1 ? start : end;
 }
 
-/// The Task Attention Module reads the mission once for each completion vector, apart from the view.
+/// The Task Attention Module reads the mission once for each completion vector, apart from the
+/// view.
 inline bool scans(const Config& c) { return c.task_attention && c.task_reader == Reader::scan; }
 /// Words of the longest mission that the module takes.
 inline int mask_words(const Config& c) {

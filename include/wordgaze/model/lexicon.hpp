@@ -14,11 +14,11 @@ namespace wordgaze::model {
 
 /// What a word says of the things that can be seen; equations (A8)-(A11) in docs/math.md.
 ///
-/// The scores of a word on objects are taken apart into what depends on the type and what depends on
-/// the color; what is left, and scores on what is no object, is not the word's to say. As the gaze
-/// focuses, a word keeps the attribute of which it says more, or says nothing. So "red" cannot learn
-/// to avoid balls where red balls are never named. And a word scores nowhere by how well it could be
-/// matched: what matches less is not in view.
+/// The scores of a word on objects are taken apart into what depends on the type and what depends
+/// on the color; what is left, and scores on what is no object, is not the word's to say. As the
+/// gaze focuses, a word keeps the attribute of which it says more, or says nothing. So "red" cannot
+/// learn to avoid balls where red balls are never named. And a word scores nowhere by how well it
+/// could be matched: what matches less is not in view.
 ///
 /// shapes   scores [codes + 1, V]: the last row is nowhere
 template <std::floating_point S>
@@ -76,8 +76,9 @@ struct Lexicon {
     }
   }
   /// From the gradient of the scores to that of raw, in the place of its first rows. The choice of
-  /// an attribute is not differentiated.
-  static void backward(const Config& c, const Tables& t, Tables& dt, Out<S> dscores) {
+  /// an attribute is not differentiated. `price` is what the size of an effect costs: so a word
+  /// says no more than it needs, and what one word can say is not shared out to six others.
+  static void backward(const Config& c, const Tables& t, S price, Tables& dt, Out<S> dscores) {
     const Index codes = t.projector[0].rows();
     for (Index v = 0; v < dscores.cols(); ++v) {
       dscores(t.best(v), v) += static_cast<S>(c.nowhere) * dscores(codes, v);
@@ -89,6 +90,12 @@ struct Lexicon {
     }
     dspoken.noalias() = t.projector[0] * dt.scratch[0];
     dspoken.noalias() += t.projector[1] * dt.scratch[1];
+    for (int a = 0; price > S(0) && a < kAttributes; ++a) {
+      for (Index v = 0; v < dscores.cols(); ++v) {
+        const S pull = price / (static_cast<S>(t.objects) * (t.size[a](v) + kSmallest));
+        dspoken.col(v) += pull * t.effect[a].col(v);
+      }
+    }
   }
 
   /// What words tell apart.
@@ -98,6 +105,8 @@ struct Lexicon {
   }
 
  private:
+  static constexpr S kSmallest = S(1e-6);  ///< size, whose direction is no longer told apart
+
   template <class Counts>
   static Index count(const CellAlphabet& codes, Counts&& counts) {
     Index n = 0;

@@ -85,8 +85,8 @@ struct MapVision {
     return map_frame(k.encoder.output, n).col(map_slot(cell));
   }
 
-  static void refresh(const Design& d, const Params& p, const WordTables<S>&, In<S> /*input_weight*/,
-                      Tables& t, Team&) {
+  static void refresh(const Design& d, const Params& p, const WordTables<S>&,
+                      In<S> /*input_weight*/, Tables& t, Team&) {
     Encoder::refresh(d, p, t);
   }
   static void forward(const Design& d, const Params& p, const Tables& t, const CellMatrix& cells,
@@ -95,8 +95,8 @@ struct MapVision {
   }
 
   template <class F>
-  static void with_scores(const Design&, const Tables&, const WordTables<S>& words, const CellMatrix&, Cache& k,
-                          F&& f) {
+  static void with_scores(const Design&, const Tables&, const WordTables<S>& words,
+                          const CellMatrix&, Cache& k, F&& f) {
     f(k.counts, [&](Index n, Index word) -> const Vector<S>& {
       k.score.noalias() = map_frame(k.encoder.output, n).transpose() * words.probes.col(word);
       return k.score;
@@ -134,8 +134,8 @@ struct MapVision {
   }
 
   template <class F>
-  static void with_score_gradients(const Design&, const Tables&, const WordTables<S>& words, Cache& k, Tables&,
-                                   WordTables<S>& dwords, F&& f) {
+  static void with_score_gradients(const Design&, const Tables&, const WordTables<S>& words,
+                                   Cache& k, Tables&, WordTables<S>& dwords, F&& f) {
     f(k.counts, [&](Index n, Index word, const auto& dscore) {
       k.score = dscore;
       map_frame(k.encoder.doutput, n).noalias() += words.probes.col(word) * k.score.transpose();

@@ -105,11 +105,13 @@ struct ReferenceAgent {
   Vector<S> effect(int attribute, babyai::WordId word) const {
     const CellAlphabet& codes = design.alphabet;
     const auto is_object = [&](int p) { return Lexicon<S>::is_object(codes[p]); };
+    Vector<S> raw(codes.size());
+    for (int p = 0; p < codes.size(); ++p) raw(p) = raw_score(word, encode(codes[p]));
     const auto mean = [&](auto&& counts) {
       S sum = 0, n = 0;
       for (int p = 0; p < codes.size(); ++p) {
         if (!is_object(p) || !counts(codes[p])) continue;
-        sum += raw_score(word, encode(codes[p]));
+        sum += raw(p);
         n += 1;
       }
       return sum / n;
@@ -146,6 +148,7 @@ struct ReferenceAgent {
     return scores;
   }
   S largest_size() const {
+    if (design.config.word_choice == 0) return S(1);  // no contest
     S largest = 0;
     for (int word = 0; word < babyai::kVocabularySize; ++word) {
       for (const int a : {0, 1}) {
@@ -175,7 +178,7 @@ struct ReferenceAgent {
       const auto word = mission.words[static_cast<std::size_t>(i)];
       const Vector<S> by_code = product ? spoken(word, largest) : Vector<S>();
       for (Index place = 0; place < places; ++place) {
-        const S score = !product                  ? raw_score(word, encoding.col(place))
+        const S score = !product                   ? raw_score(word, encoding.col(place))
                         : place < grid::kViewCells ? by_code(x.cells(place, n))
                                                    : by_code(by_code.size() - 1);
         a.maps(i, place) = beta * score;

@@ -31,10 +31,10 @@ struct TableVision {
   using Params = typename Encoder::Params;
 
   struct Tables {
-    Matrix<S> encodings;  ///< [C, codes]
-    Matrix<S> scores;     ///< [P, V + 1]; empty without attention
+    Matrix<S> encodings;                  ///< [C, codes]
+    Matrix<S> scores;                     ///< [P, V + 1]; empty without attention
     typename Lexicon<S>::Tables lexicon;  // empty but for the product gaze
-    Matrix<S> input;      ///< [4 H, 49 codes]: column cell * codes + code
+    Matrix<S> input;                      ///< [4 H, 49 codes]: column cell * codes + code
     static constexpr auto fields() {
       return std::tuple{nn::Field{"encodings", &Tables::encodings},
                         nn::Field{"scores", &Tables::scores}, nn::Field{"input", &Tables::input}};
@@ -73,8 +73,8 @@ struct TableVision {
     return t.encodings.col(cells(cell, n));
   }
 
-  static void refresh(const Design& d, const Params& p, const WordTables<S>& words, In<S> input_weight, Tables& t,
-                      Team& team) {
+  static void refresh(const Design& d, const Params& p, const WordTables<S>& words,
+                      In<S> input_weight, Tables& t, Team& team) {
     Encoder::forward(d, p, t.encodings);
     if (d.config.attention) {
       auto scores = t.scores.topRows(d.alphabet.size());
@@ -178,18 +178,14 @@ struct TableVision {
     for (int w = 1; w < team.size(); ++w) sum.encodings += dtables_of(w).encodings;
   }
 
-  static void tables_backward(const Design& d, const Tables& t, const WordTables<S>& words, Tables& dt,
-                              WordTables<S>& dwords, Params& grads) {
+  static void tables_backward(const Design& d, const Tables& t, const WordTables<S>& words,
+                              Tables& dt, WordTables<S>& dwords, Params& grads) {
     if (d.config.attention) {
       auto dscores = dt.scores.topRows(d.alphabet.size());
       if (d.config.gaze == Gaze::product) {
-        // A word says no more than it needs: beta S, the logarithms of its maps, have a price.
-        const auto price = static_cast<S>(focused(
-            d.config.score_cost_start, d.config.score_cost, static_cast<double>(words.focus)));
-        const S beta = words.sharpness;
-        dscores.leftCols(kSilentWord) +=
-            price * beta * beta * t.scores.topLeftCorner(d.alphabet.size(), kSilentWord);
-        Lexicon<S>::backward(d.config, t.lexicon, dt.lexicon,
+        const auto price = static_cast<S>(focused(d.config.score_cost_start, d.config.score_cost,
+                                                  static_cast<double>(words.focus)));
+        Lexicon<S>::backward(d.config, t.lexicon, price * words.sharpness, dt.lexicon,
                              dt.scores.topLeftCorner(nowhere(d) + 1, kSilentWord));
       }
       dwords.probes.noalias() += t.encodings * dscores;

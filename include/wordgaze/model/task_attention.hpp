@@ -98,7 +98,8 @@ struct TaskAttention {
     for (Index n = 0; n < x.shape.columns(); ++n) {
       const auto& sentence = missions[x.mission(n)];
       for (Index i = 0; i < sentence.length; ++i) {
-        f(n, i, c.task_reader == Reader::places ? i * c.word_size : 0, sentence.words[static_cast<std::size_t>(i)]);
+        f(n, i, c.task_reader == Reader::places ? i * c.word_size : 0,
+          sentence.words[static_cast<std::size_t>(i)]);
       }
     }
   }

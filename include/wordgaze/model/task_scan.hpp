@@ -153,7 +153,8 @@ struct TaskScan {
       if (last) continue;
       const Word& right = k.words[j + 1];
       Word& dr = d[j + 1];
-      dr.behind += d[j].behind * (S(1) - w.undone) + d[j].turned * right.turn * (S(1) - right.turned);
+      dr.behind +=
+          d[j].behind * (S(1) - w.undone) + d[j].turned * right.turn * (S(1) - right.turned);
       dr.turned += d[j].turned * (S(1) - right.turn * right.behind);
       dr.turn += d[j].turned * (S(1) - right.turned) * right.behind;
     }

@@ -23,8 +23,8 @@ namespace wordgaze::model {
 ///     A_i = softmax of beta (q_i . K / sqrt(d_k))                  one map a word
 ///     H_i = entropy of A_i,   w = softmax over the words of -H     a sharp map weighs more
 ///
-/// over the 49 cells and, in the product, nowhere. M says where the agent looks, s(M) scales O~ cell
-/// by cell; 0 is nowhere, S_0 the silent word (word_tables.hpp):
+/// over the 49 cells and, in the product, nowhere. M says where the agent looks, s(M) scales O~
+/// cell by cell; 0 is nowhere, S_0 the silent word (word_tables.hpp):
 ///
 ///     product    M = softmax(Z),  Z = S_0 + sum_i a_i ln A_i,  a_i = alpha_i w_i / sum alpha w
 ///                s = f + (1 - f) M / (M + M_0)
@@ -121,9 +121,10 @@ struct TextVisualAttention {
     probes *= S(1) / std::sqrt(static_cast<S>(p.key.rows()));
     if (p.silent.size() > 0) t.probes.col(kSilentWord) = p.silent;
     t.focus = p.focus.size() > 0 ? p.focus(0) : S(1);
-    t.sharpness = c.gaze == Gaze::sum ? S(1)
-                                      : static_cast<S>(focused(c.sharpness_start, c.sharpness,
-                                                               static_cast<double>(t.focus)));
+    t.sharpness =
+        c.gaze == Gaze::sum
+            ? S(1)
+            : static_cast<S>(focused(c.sharpness_start, c.sharpness, static_cast<double>(t.focus)));
   }
   /// On entry dt.probes is the gradient of the probes; dt is used up.
   static void tables_backward(const Params& p, In<S> words, const Tables& t, Tables& dt,
@@ -235,7 +236,8 @@ struct TextVisualAttention {
           if (c.gaze == Gaze::sum) {
             dscore += map * (mix * dgaze - counts * (mix * (map * dgaze).sum()));
           } else {
-            dscore += (mix / k.total(n)) * dgaze;  // the softmax's shared term is 0: dgaze sums to 0
+            dscore +=
+                (mix / k.total(n)) * dgaze;  // the softmax's shared term is 0: dgaze sums to 0
           }
           take(n, sentence.words[static_cast<std::size_t>(i)], (beta * dscore).matrix());
         }

@@ -112,8 +112,8 @@ struct ConfiguredVision {
     });
   }
 
-  static void refresh(const Design& d, const Params& p, const WordTables<S>& words, In<S> input_weight, Tables& t,
-                      Team& team) {
+  static void refresh(const Design& d, const Params& p, const WordTables<S>& words,
+                      In<S> input_weight, Tables& t, Team& team) {
     choose(d, [&](auto vision, auto its) {
       vision.refresh(d, its(p), words, input_weight, its(t), team);
     });
@@ -123,8 +123,8 @@ struct ConfiguredVision {
     choose(d, [&](auto vision, auto its) { vision.forward(d, its(p), its(t), cells, its(k)); });
   }
   template <class F>
-  static void with_scores(const Design& d, const Tables& t, const WordTables<S>& words, const CellMatrix& cells,
-                          Cache& k, F&& f) {
+  static void with_scores(const Design& d, const Tables& t, const WordTables<S>& words,
+                          const CellMatrix& cells, Cache& k, F&& f) {
     choose(d, [&](auto vision, auto its) {
       vision.with_scores(d, its(t), words, cells, its(k), std::forward<F>(f));
     });
@@ -145,8 +145,8 @@ struct ConfiguredVision {
     });
   }
   template <class F>
-  static void with_score_gradients(const Design& d, const Tables& t, const WordTables<S>& words, Cache& k,
-                                   Tables& dt, WordTables<S>& dwords, F&& f) {
+  static void with_score_gradients(const Design& d, const Tables& t, const WordTables<S>& words,
+                                   Cache& k, Tables& dt, WordTables<S>& dwords, F&& f) {
     choose(d, [&](auto vision, auto its) {
       vision.with_score_gradients(d, its(t), words, its(k), its(dt), dwords, std::forward<F>(f));
     });
@@ -169,8 +169,8 @@ struct ConfiguredVision {
       vision.reduce(d, its(t), input_weight, own, dinput_weight, team);
     });
   }
-  static void tables_backward(const Design& d, const Tables& t, const WordTables<S>& words, Tables& dt,
-                              WordTables<S>& dwords, Params& grads) {
+  static void tables_backward(const Design& d, const Tables& t, const WordTables<S>& words,
+                              Tables& dt, WordTables<S>& dwords, Params& grads) {
     choose(d, [&](auto vision, auto its) {
       vision.tables_backward(d, its(t), words, its(dt), dwords, its(grads));
     });

@@ -15,7 +15,8 @@ namespace wordgaze::nn {
 /// vocabulary.
 ///
 /// shapes   product [3 hidden, T*B]  W_x x
-///          active [1, T*B]  how far a step changes the state: 0 behind the end of a sequence, else in
+///          active [1, T*B]  how far a step changes the state: 0 behind the end of a sequence, else
+///          in
 ///                           (0, 1], as a rule 1
 ///          h [hidden, B]  the state after each whole sequence
 ///          A cache and dproduct may be larger than the batch: columns behind T*B are not touched.

@@ -24,12 +24,12 @@ AdvantageScale advantage_scale(const Rollout& rollout, std::span<const int> sequ
 /// done and what came of it. N frames, a column each.
 struct Batch {
   model::Frames<float> frames;
-  model::Missions missions;          ///< that frames.mission_of counts in
-  std::vector<std::uint8_t> action;  ///< [N]
+  model::Missions missions;           ///< that frames.mission_of counts in
+  std::vector<std::uint8_t> action;   ///< [N]
   std::vector<std::uint16_t> bright;  ///< [N] the true mask, by sub-task
-  std::vector<float> log_prob;       ///< [N] of the action when it was taken
-  std::vector<float> advantage;      ///< [N] normalized
-  std::vector<float> value_target;   ///< [N]
+  std::vector<float> log_prob;        ///< [N] of the action when it was taken
+  std::vector<float> advantage;       ///< [N] normalized
+  std::vector<float> value_target;    ///< [N]
 
   /// Copies the columns of some training sequences.
   void gather(const model::Config& config, const Rollout& rollout, std::span<const int> sequences,

@@ -135,7 +135,8 @@ class Learner {
       k.batch.gather(agent_->config, rollout, own, scale);
       const auto& x = k.batch.frames;
       const auto& missions = k.batch.missions;
-      if (k.text.cols() < missions.size()) k.text.resize(model::mission_features(agent_->config), missions.size());
+      if (k.text.cols() < missions.size())
+        k.text.resize(model::mission_features(agent_->config), missions.size());
       agent_->encode_text(weights_, missions, k.cache, k.text);
       agent_->forward(weights_, x, missions, k.text, k.cache, k.outputs);
       if (k.gradient.logits.cols() != x.shape.columns()) {
