@@ -63,7 +63,8 @@ def random_parameters(choice, config):
     if config["attention"]:
         shapes |= {"attention.query": (d, e), "attention.key": (d, c)}
         if config["gaze"] == "product":
-            shapes |= {"attention.silent": (c,), "attention.focus": (1,)}
+            shapes |= {"attention.silent": (c,), "attention.words": (1, VOCABULARY),
+                       "attention.focus": (1,)}
     shapes |= {"memory.input_weight": (4 * h, VIEW * VIEW * c), "memory.hidden_weight": (4 * h, h),
                "memory.bias": (4 * h,), "text.input_weight": (3 * g, e),
                "text.hidden_weight": (3 * g, g), "text.bias": (3 * g,), "text.candidate_bias": (g,)}
@@ -138,23 +139,17 @@ def effects_of(p, config):
             (table.mean(0, keepdim=True) - everywhere).expand_as(table)]
 
 
-def sizes(p, config):
-    return torch.stack([e.square().mean((0, 1)).sqrt() for e in effects_of(p, config)])
+def geometric(start, end, focus):
+    return start * (end / start) ** focus
 
 
 def say(p, config):
     """What each word of the vocabulary says of each object [18, V], and the scores of nowhere [V]."""
-    effects = effects_of(p, config)
-    size = sizes(p, config).detach()
-    power = (size / size.max()) ** config["word_choice"]
-    kept = power / (power.sum(0) + config["quiet_word"] ** config["word_choice"])
-    focus = config["focus"]
-    said = sum((1 - focus * (1 - k)) * e for k, e in zip(kept, effects)).reshape(-1, VOCABULARY)
+    types, colors = effects_of(p, config)
+    slope = geometric(config["word_choice_start"], config["word_choice"], config["focus"])
+    of_type = torch.sigmoid(slope * p["attention.words"][0])
+    said = (of_type * types + (1 - of_type) * colors).reshape(-1, VOCABULARY)
     return said, config["nowhere"] * said.max(0).values
-
-
-def geometric(start, end, focus):
-    return start * (end / start) ** focus
 
 
 def look(p, config, image, view, mission):
@@ -268,7 +263,7 @@ def make(name, variant):
     config = SIZES | {"task_attention": False, "gaze_exponent": 2, "gaze_floor": 0,
                       "entropy_base": 49, "encoder_leak": 0.1, "encoder": "1x1", "gaze": "sum",
                       "task_reader": "sum", "focus": 0.6, "sharpness_start": 1, "sharpness": 3,
-                      "nowhere": 0.45, "word_choice": 3, "quiet_word": 0.3,
+                      "nowhere": 0.45, "word_choice_start": 0.5, "word_choice": 3,
                       "score_cost": 0} | variant
     choice = random.Random(f"{SEED} {name}")
     given = random_parameters(choice, config)
@@ -292,7 +287,7 @@ def make(name, variant):
                for key, weight in asked.items())
     if config["score_cost"] > 0:  # start and end are the same
         beta = geometric(config["sharpness_start"], config["sharpness"], config["focus"])
-        loss = loss + config["score_cost"] * beta * sizes(p, config).sum()
+        loss = loss + config["score_cost"] / 2 * sum((beta * e).square().sum() for e in effects_of(p, config))
     loss.backward()
     for r in results:
         r.pop("mask_logits", None)

@@ -36,8 +36,8 @@ inline model::Config small_config() {
   c.task_words = 14;
   c.sub_tasks = 2;
   c.encoder_leak = 0.1;
-  // The choice of a word is not differentiated; without a contest there is none to leave out.
-  c.word_choice = 0;
+  c.word_choice_start = 0.5;
+  c.word_choice = 3;
   c.sharpness_start = 1;
   c.sharpness = 3;
   c.score_cost_start = c.score_cost = 0;

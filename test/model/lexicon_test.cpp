@@ -15,10 +15,17 @@ constexpr int kFirstObject = 3;  // codes of one_room: unseen, empty, wall, then
 struct LexiconTest : testing::Test {
   Design design{{}, CellAlphabet::one_room()};
   Lexicon<double>::Tables tables;
-  Matrix<double> scores = random_matrix<double>(22, Index{babyai::kVocabularySize});
+  WordTables<double> words;
+  Matrix<double> scores = random_matrix(22, babyai::kVocabularySize);
 
-  LexiconTest() { Lexicon<double>::resize(design, tables); }
-  void speak(double focus) { Lexicon<double>::forward(design.config, focus, tables, scores); }
+  LexiconTest() {
+    Lexicon<double>::resize(design, tables);
+    words.choice = random_matrix(1, babyai::kVocabularySize);
+  }
+  void speak(double focus) {
+    words.focus = focus;
+    Lexicon<double>::forward(design.config, words, tables, scores);
+  }
   int code(int type, int color) const {
     return design.alphabet.find(
         {static_cast<std::uint8_t>(type), static_cast<std::uint8_t>(color), 0});
@@ -34,7 +41,7 @@ TEST_F(LexiconTest, WhatItSaysOfTypesAndColorsAddsUp) {
   const Matrix<double> raw = scores;
   speak(0);
   // Differences of differences vanish: no word knows a pair.
-  for (int v = 0; v < 5; ++v) {
+  for (int v = 0; v < babyai::kVocabularySize; ++v) {
     const double interaction = scores(code(5, 0), v) - scores(code(6, 0), v) -
                                scores(code(5, 3), v) + scores(code(6, 3), v);
     EXPECT_NEAR(interaction, 0, 1e-12);
@@ -42,23 +49,28 @@ TEST_F(LexiconTest, WhatItSaysOfTypesAndColorsAddsUp) {
   EXPECT_GT((scores - raw).cwiseAbs().maxCoeff(), 0.1);
 }
 
-TEST_F(LexiconTest, FocusedItSpeaksOfOneAttribute) {
-  // A word that is a little about type and much about color.
+TEST_F(LexiconTest, FocusedItSpeaksOfTheAttributeThatItHasChosen) {
+  // Two words that say as much of types as of colors.
   for (int t = 5; t <= 7; ++t) {
-    for (int c = 0; c < 6; ++c) scores(code(t, c), 0) = 0.6 * (t == 5) + 5 * (c == 2);
+    for (int c = 0; c < 6; ++c) scores(code(t, c), 0) = 3 * (t == 5) + 5 * (c == 2);
   }
+  scores.col(1) = scores.col(0);
+  words.choice(0, 0) = 0.3;
+  words.choice(0, 1) = -0.3;
   speak(1);
-  EXPECT_NEAR(scores(code(5, 2), 0), scores(code(7, 2), 0), 1e-3);
-  EXPECT_GT(scores(code(5, 2), 0) - scores(code(5, 1), 0), 4);
+  EXPECT_NEAR(scores(code(5, 2), 0), scores(code(5, 0), 0), 1e-6);
+  EXPECT_NEAR(scores(code(5, 2), 0) - scores(code(6, 2), 0), 3, 1e-6);
+  EXPECT_NEAR(scores(code(5, 2), 1), scores(code(7, 2), 1), 1e-6);
+  EXPECT_NEAR(scores(code(5, 2), 1) - scores(code(5, 1), 1), 5, 1e-6);
 }
 
-TEST_F(LexiconTest, FocusedAQuietWordSaysNothing) {
-  scores.setZero();
-  scores(code(5, 0), 0) = 5;
-  scores(code(5, 0), 1) = 0.5;
+TEST_F(LexiconTest, UndecidedItSpeaksHalfOfBoth) {
+  words.choice.setZero();
+  Matrix<double> before = scores;
   speak(1);
-  EXPECT_GT(scores.col(0).maxCoeff(), 1);
-  EXPECT_LT(scores.col(1).cwiseAbs().maxCoeff(), 1e-3);
+  before.row(21).setZero();
+  const Matrix<double> both = (tables.projector[0] + tables.projector[1]) * before.topRows(21) / 2;
+  EXPECT_LT((scores.topRows(21) - both).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST_F(LexiconTest, NowhereIsAShareOfTheBestMatch) {

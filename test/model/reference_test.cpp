@@ -36,8 +36,8 @@ Config config_of(const Json& j) {
   c.sharpness_start = j.at("sharpness_start");
   c.sharpness = j.at("sharpness");
   c.nowhere = j.at("nowhere");
+  c.word_choice_start = j.at("word_choice_start");
   c.word_choice = j.at("word_choice");
-  c.quiet_word = j.at("quiet_word");
   c.score_cost_start = c.score_cost = j.at("score_cost");
   return c;
 }

@@ -22,7 +22,6 @@ model::Config tiny(bool task_attention) {
   c.memory_size = c.text_size = c.head_size = c.task_size = 4;
   c.task_words = 14;
   c.sub_tasks = 2;
-  c.word_choice = 0;  // no contest between words, which would not be differentiated
   c.score_cost_start = c.score_cost = 0;
   return c;
 }

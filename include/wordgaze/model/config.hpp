@@ -57,10 +57,10 @@ struct Config {
   double sharpness_start = 4;  ///< of the words' maps: their inverse temperature, at first
   double sharpness = 32;       ///< and when the gaze has focused
   double nowhere = 0.45;       ///< score of nowhere, as a share of a word's best match
-  double word_choice = 8;      ///< exponent of the contest between what a word says
-  double quiet_word = 0.3;     ///< size below which a word says nothing, as a share of the largest
-  double score_cost_start = 2e-5;  ///< weight in the loss of the sizes of what words say, at first
-  double score_cost = 1.3e-6;      ///< and when the gaze has focused
+  double word_choice_start = 2;    ///< slope of the gates between type and color, at first
+  double word_choice = 60;         ///< and when the gaze has focused
+  double score_cost_start = 1e-6;  ///< weight in the loss of what words say, squared, at first
+  double score_cost = 1e-7;        ///< and when the gaze has focused
   // Of the sum:
   double gaze_exponent = 2;  ///< p in s(M) = f + (1 - f) (M / max M)^p
   double encoder_bias = 1;   ///< initial bias of the visual encoder: near-linear at the start
@@ -104,17 +104,13 @@ struct Config {
         Setting{"nowhere", &C::nowhere,
                 "product: score of nowhere, as a share of what a word scores on its best match", 0,
                 1},
-        Setting{
-            "word_choice", &C::word_choice,
-            "product: exponent of the contest by which a word speaks of type or of color; 0: no "
-            "contest, each word keeps a third of both",
-            0, 64},
-        Setting{"quiet_word", &C::quiet_word,
-                "product: size of what a word says, as a share of the largest of the vocabulary, "
-                "below which it falls silent",
-                0, 1},
+        Setting{"word_choice_start", &C::word_choice_start,
+                "product: slope of the gates by which a word speaks of type or of color, at the "
+                "start; 0: of both alike",
+                0, 1e3},
+        Setting{"word_choice", &C::word_choice, "product: and when the gaze has focused", 0, 1e3},
         Setting{"score_cost_start", &C::score_cost_start,
-                "product: weight in the loss of the sizes of all that words say, at the start", 0,
+                "product: weight in the loss of all that words could say, squared, at the start", 0,
                 1},
         Setting{"score_cost", &C::score_cost, "product: and when the gaze has focused", 0, 1},
         Setting{"gaze_exponent", &C::gaze_exponent, "sum: p in s(M) = f + (1 - f) (M / max M)^p", 1,
@@ -157,6 +153,10 @@ inline void validate(const Config& c) {
   require(!c.attention || c.gaze == Gaze::sum || c.encoder == Encoder::cell,
           "model: gaze = \"product\" asks what a word says of each kind of cell, and encoder = "
           "\"3x3\" knows no kinds; set model.gaze=sum or model.encoder=1x1");
+  require(c.word_choice >= c.word_choice_start,
+          "model: word_choice = {} is less than word_choice_start = {}; a word that has chosen "
+          "does not choose again",
+          c.word_choice, c.word_choice_start);
   require(c.sharpness >= c.sharpness_start,
           "model: sharpness = {} is less than sharpness_start = {}; the gaze focuses, it does not "
           "blur",

@@ -3,22 +3,22 @@
 #include <array>
 #include <cmath>
 #include <concepts>
-#include <limits>
 
 #include "wordgaze/core/types.hpp"
 #include "wordgaze/grid/cell.hpp"
 #include "wordgaze/model/config.hpp"
 #include "wordgaze/model/design.hpp"
+#include "wordgaze/model/word_tables.hpp"
 
 namespace wordgaze::model {
 
 /// What a word says of the things that can be seen; equations (A8)-(A11) in docs/math.md.
 ///
 /// The scores of a word on objects are taken apart into what depends on the type and what depends
-/// on the color; what is left, and scores on what is no object, is not the word's to say. As the
-/// gaze focuses, a word keeps the attribute of which it says more, or says nothing. So "red" cannot
-/// learn to avoid balls where red balls are never named. And a word scores nowhere by how well it
-/// could be matched: what matches less is not in view.
+/// on the color; what is left, and scores on what is no object, is not the word's to say. A gate
+/// that is learned says of which of the two a word speaks, and hardens as the gaze focuses. So
+/// "red" cannot learn to avoid balls where red balls are never named. And a word scores nowhere by
+/// how well it could be matched: what matches less is not in view.
 ///
 /// shapes   scores [codes + 1, V]: the last row is nowhere
 template <std::floating_point S>
@@ -29,23 +29,20 @@ struct Lexicon {
     std::array<Matrix<S>, kAttributes> projector;  // [codes, codes] onto what an attribute says
     std::array<Matrix<S>, kAttributes> effect;     // [codes, V] of the raw scores
     std::array<Matrix<S>, kAttributes> scratch;    // [codes, V]
-    std::array<Vector<S>, kAttributes> size;       // [V] of an effect
-    Matrix<S> share;                               ///< [kAttributes, V] how much of it counts
+    Vector<S> of_type;                             ///< [V] share of the type; the color has the rest
     Eigen::Array<Index, Eigen::Dynamic, 1> best;   ///< [V] the code that matches a word best
-    Index objects = 0;                             ///< codes that are objects
   };
 
   static void resize(const Design& d, Tables& t) {
     const CellAlphabet& codes = d.alphabet;
-    t.share.setOnes(kAttributes, babyai::kVocabularySize);
+    t.of_type.setZero(babyai::kVocabularySize);
     t.best.setZero(babyai::kVocabularySize);
-    t.objects = count(codes, [](const auto&) { return true; });
+    const auto objects = static_cast<S>(count(codes, [](const auto&) { return true; }));
     for (int a = 0; a < kAttributes; ++a) {
       t.projector[a].setZero(codes.size(), codes.size());
       for (auto* m : {&t.effect[a], &t.scratch[a]}) {
         m->setZero(codes.size(), babyai::kVocabularySize);
       }
-      t.size[a].setZero(babyai::kVocabularySize);
       for (int i = 0; i < codes.size(); ++i) {
         if (!is_object(codes[i])) continue;
         const auto alike = [&](const CellAlphabet::Code& other) {
@@ -54,48 +51,47 @@ struct Lexicon {
         const auto share = static_cast<S>(1.0 / static_cast<double>(count(codes, alike)));
         for (int j = 0; j < codes.size(); ++j) {
           if (!is_object(codes[j])) continue;
-          t.projector[a](i, j) =
-              (alike(codes[j]) ? share : S(0)) - S(1) / static_cast<S>(t.objects);
+          t.projector[a](i, j) = (alike(codes[j]) ? share : S(0)) - S(1) / objects;
         }
       }
     }
   }
 
-  /// On entry the first rows of scores are raw. `focus` in [0, 1]: how far words have chosen.
-  static void forward(const Config& c, S focus, Tables& t, Out<S> scores) {
+  /// On entry the first rows of scores are raw.
+  static void forward(const Config& c, const WordTables<S>& words, Tables& t, Out<S> scores) {
     const Index codes = scores.rows() - 1;
-    for (int a = 0; a < kAttributes; ++a) {
-      t.effect[a].noalias() = t.projector[a] * scores.topRows(codes);
-    }
-    choose(c, focus, t);
     auto spoken = scores.topRows(codes);
-    spoken = t.effect[0] * t.share.row(0).asDiagonal();
-    spoken += t.effect[1] * t.share.row(1).asDiagonal();
+    for (int a = 0; a < kAttributes; ++a) t.effect[a].noalias() = t.projector[a] * spoken;
+    t.of_type = (S(1) + (-slope(c, words) * words.choice.row(0).transpose().array()).exp()).inverse();
+    spoken = t.effect[0] * t.of_type.asDiagonal();
+    spoken += t.effect[1] * (S(1) - t.of_type.array()).matrix().asDiagonal();
     for (Index v = 0; v < scores.cols(); ++v) {
       scores(codes, v) = static_cast<S>(c.nowhere) * spoken.col(v).maxCoeff(&t.best(v));
     }
   }
-  /// From the gradient of the scores to that of raw, in the place of its first rows. The choice of
-  /// an attribute is not differentiated. `price` is what the size of an effect costs: so a word
-  /// says no more than it needs, and what one word can say is not shared out to six others.
-  static void backward(const Config& c, const Tables& t, S price, Tables& dt, Out<S> dscores) {
+  /// From the gradient of the scores to that of raw, in the place of its first rows, and to that of
+  /// the gates (+=). What a word could say of an attribute has its price, (A12): so a word that has
+  /// nothing to say falls silent.
+  static void backward(const Config& c, const WordTables<S>& words, const Tables& t, Tables& dt,
+                       Out<S> dscores, WordTables<S>& dwords) {
     const Index codes = t.projector[0].rows();
     for (Index v = 0; v < dscores.cols(); ++v) {
       dscores(t.best(v), v) += static_cast<S>(c.nowhere) * dscores(codes, v);
     }
     auto dspoken = dscores.topRows(codes);
-    // Projectors are symmetric.
-    for (int a = 0; a < kAttributes; ++a) {
-      dt.scratch[a] = dspoken * t.share.row(a).asDiagonal();
+    const S kappa = slope(c, words);
+    for (Index v = 0; v < dscores.cols(); ++v) {
+      const S dof_type = dspoken.col(v).dot(t.effect[0].col(v) - t.effect[1].col(v));
+      dwords.choice(0, v) += kappa * t.of_type(v) * (S(1) - t.of_type(v)) * dof_type;
     }
-    dspoken.noalias() = t.projector[0] * dt.scratch[0];
-    dspoken.noalias() += t.projector[1] * dt.scratch[1];
-    for (int a = 0; price > S(0) && a < kAttributes; ++a) {
-      for (Index v = 0; v < dscores.cols(); ++v) {
-        const S pull = price / (static_cast<S>(t.objects) * (t.size[a](v) + kSmallest));
-        dspoken.col(v) += pull * t.effect[a].col(v);
-      }
-    }
+    dt.scratch[0] = dspoken * t.of_type.asDiagonal();
+    dt.scratch[1] = dspoken - dt.scratch[0];
+    // Projectors are symmetric, and twice applied are as once.
+    const auto price =
+        static_cast<S>(focused(c.score_cost_start, c.score_cost, static_cast<double>(words.focus))) *
+        words.sharpness * words.sharpness;
+    dspoken = price * (t.effect[0] + t.effect[1]);
+    for (int a = 0; a < kAttributes; ++a) dspoken.noalias() += t.projector[a] * dt.scratch[a];
   }
 
   /// What words tell apart.
@@ -105,37 +101,16 @@ struct Lexicon {
   }
 
  private:
-  static constexpr S kSmallest = S(1e-6);  ///< size, whose direction is no longer told apart
-
   template <class Counts>
   static Index count(const CellAlphabet& codes, Counts&& counts) {
     Index n = 0;
     for (int i = 0; i < codes.size(); ++i) n += is_object(codes[i]) && counts(codes[i]);
     return n;
   }
-
-  /// A contest of sizes: n_a^k against that of the other attribute and of a quiet word.
-  static void choose(const Config& c, S focus, Tables& t) {
-    S largest = 0;
-    for (int a = 0; a < kAttributes; ++a) {
-      for (Index v = 0; v < t.size[a].size(); ++v) {
-        t.size[a](v) = std::sqrt(t.effect[a].col(v).squaredNorm() / static_cast<S>(t.objects));
-      }
-      largest = std::max(largest, t.size[a].maxCoeff());
-    }
-    if (!(largest > S(0))) {
-      t.share.setOnes();
-      return;
-    }
-    const auto power = [&](S n) { return std::pow(n, static_cast<S>(c.word_choice)); };
-    const S quiet = power(static_cast<S>(c.quiet_word));
-    for (Index v = 0; v < t.share.cols(); ++v) {
-      const S type = power(t.size[0](v) / largest), color = power(t.size[1](v) / largest);
-      // What a word has kept of an attribute where the gaze has focused.
-      const S sum = std::max(type + color + quiet, std::numeric_limits<S>::min());
-      t.share(0, v) = S(1) - focus * (S(1) - type / sum);
-      t.share(1, v) = S(1) - focus * (S(1) - color / sum);
-    }
+  /// Of the gates: how hard a word has to choose.
+  static S slope(const Config& c, const WordTables<S>& words) {
+    return static_cast<S>(
+        focused(c.word_choice_start, c.word_choice, static_cast<double>(words.focus)));
   }
 };
 

@@ -124,39 +124,18 @@ struct ReferenceAgent {
     }
     return e;
   }
-  S size(const Vector<S>& effect) const {
-    S objects = 0;
-    for (int p = 0; p < design.alphabet.size(); ++p) {
-      objects += Lexicon<S>::is_object(design.alphabet[p]) ? S(1) : S(0);
-    }
-    return std::sqrt(effect.squaredNorm() / objects);
-  }
-
-  /// (A9)-(A11): the scores of a word on each code of the alphabet and, last, on nowhere. `largest`
-  /// is the largest size of what any word says of an attribute.
-  Vector<S> spoken(babyai::WordId word, S largest) const {
+  /// (A9)-(A11): the scores of a word on each code of the alphabet and, last, on nowhere.
+  Vector<S> spoken(babyai::WordId word) const {
     const Config& c = design.config;
-    const auto power = [&](S n) { return std::pow(n / largest, static_cast<S>(c.word_choice)); };
-    const Vector<S> type = effect(0, word), color = effect(1, word);
-    const S t = power(size(type)), k = power(size(color)),
-            sum = t + k + power(static_cast<S>(c.quiet_word) * largest);
-    const S focus = params.attention.focus(0);
-    Vector<S> scores(type.size() + 1);
-    scores.head(type.size()) =
-        (1 - focus * (1 - t / sum)) * type + (1 - focus * (1 - k / sum)) * color;
-    scores(type.size()) = static_cast<S>(c.nowhere) * scores.head(type.size()).maxCoeff();
+    const S slope = static_cast<S>(c.word_choice_start) *
+                    std::pow(static_cast<S>(c.word_choice / c.word_choice_start), focus());
+    const S of_type = S(1) / (S(1) + std::exp(-slope * params.attention.words(0, word)));
+    const Vector<S> said = of_type * effect(0, word) + (1 - of_type) * effect(1, word);
+    Vector<S> scores(said.size() + 1);
+    scores << said, static_cast<S>(c.nowhere) * said.maxCoeff();
     return scores;
   }
-  S largest_size() const {
-    if (design.config.word_choice == 0) return S(1);  // no contest
-    S largest = 0;
-    for (int word = 0; word < babyai::kVocabularySize; ++word) {
-      for (const int a : {0, 1}) {
-        largest = std::max(largest, size(effect(a, static_cast<babyai::WordId>(word))));
-      }
-    }
-    return largest;
-  }
+  S focus() const { return params.attention.focus(0); }
 
   /// (A1)-(A6) and (T1)-(T10).
   Attention attend(const Frames<S>& x, Index n, const Matrix<S>& encoding,
@@ -168,15 +147,13 @@ struct ReferenceAgent {
     const bool product = c.gaze == Gaze::product;
     const Index places = grid::kViewCells + (product ? 1 : 0);
     a.maps.resize(mission.length, places);
-    const S largest = product ? largest_size() : S(0);
-    const S focus = product ? params.attention.focus(0) : S(1);
     const S beta = product ? static_cast<S>(c.sharpness_start) *
-                                 std::pow(static_cast<S>(c.sharpness / c.sharpness_start), focus)
+                                 std::pow(static_cast<S>(c.sharpness / c.sharpness_start), focus())
                            : S(1);
     Vector<S> entropy(mission.length);
     for (int i = 0; i < mission.length; ++i) {
       const auto word = mission.words[static_cast<std::size_t>(i)];
-      const Vector<S> by_code = product ? spoken(word, largest) : Vector<S>();
+      const Vector<S> by_code = product ? spoken(word) : Vector<S>();
       for (Index place = 0; place < places; ++place) {
         const S score = !product                   ? raw_score(word, encoding.col(place))
                         : place < grid::kViewCells ? by_code(x.cells(place, n))

@@ -80,7 +80,7 @@ struct TableVision {
       auto scores = t.scores.topRows(d.alphabet.size());
       scores.noalias() = t.encodings.transpose() * words.probes;
       if (d.config.gaze == Gaze::product) {
-        Lexicon<S>::forward(d.config, words.focus, t.lexicon,
+        Lexicon<S>::forward(d.config, words, t.lexicon,
                             t.scores.topLeftCorner(nowhere(d) + 1, kSilentWord));
       }
     }
@@ -183,10 +183,8 @@ struct TableVision {
     if (d.config.attention) {
       auto dscores = dt.scores.topRows(d.alphabet.size());
       if (d.config.gaze == Gaze::product) {
-        const auto price = static_cast<S>(focused(d.config.score_cost_start, d.config.score_cost,
-                                                  static_cast<double>(words.focus)));
-        Lexicon<S>::backward(d.config, t.lexicon, price * words.sharpness, dt.lexicon,
-                             dt.scores.topLeftCorner(nowhere(d) + 1, kSilentWord));
+        Lexicon<S>::backward(d.config, words, t.lexicon, dt.lexicon,
+                             dt.scores.topLeftCorner(nowhere(d) + 1, kSilentWord), dwords);
       }
       dwords.probes.noalias() += t.encodings * dscores;
       dt.encodings.noalias() += words.probes * dscores.transpose();

@@ -44,10 +44,12 @@ struct TextVisualAttention {
     Matrix<S> query;   ///< [d_k, E]
     Matrix<S> key;     ///< [d_k, C]
     Vector<S> silent;  ///< [C] probe of the silent word; empty for the sum
+    Matrix<S> words;   ///< [1, V] choice of type (positive) or color; empty for the sum
     Vector<S> focus;   ///< [1] how far the gaze has focused, set by training; empty for the sum
     static constexpr auto fields() {
       return std::tuple{nn::Field{"query", &Params::query}, nn::Field{"key", &Params::key},
-                        nn::Field{"silent", &Params::silent}, nn::Field{"focus", &Params::focus}};
+                        nn::Field{"silent", &Params::silent}, nn::Field{"words", &Params::words},
+                        nn::Field{"focus", &Params::focus}};
     }
   };
   using Tables = WordTables<S>;
@@ -81,12 +83,14 @@ struct TextVisualAttention {
     p.key.resize(c.key_size, c.channels);
     if (c.gaze == Gaze::product) {
       p.silent.resize(c.channels);
+      p.words.setZero(1, babyai::kVocabularySize);
       p.focus.resize(1);
     }
   }
   static void resize(const Config& c, Tables& t) {
     t.queries.setZero(c.key_size, babyai::kVocabularySize);
     t.probes.setZero(c.channels, babyai::kVocabularySize + 1);
+    if (c.gaze == Gaze::product) t.choice.setZero(1, babyai::kVocabularySize);
   }
   static void initialize(core::Rng& rng, Params& p) {
     nn::fill_scaled(p.query, 1, rng);
@@ -120,6 +124,7 @@ struct TextVisualAttention {
     probes.noalias() = p.key.transpose() * t.queries;
     probes *= S(1) / std::sqrt(static_cast<S>(p.key.rows()));
     if (p.silent.size() > 0) t.probes.col(kSilentWord) = p.silent;
+    t.choice = p.words;
     t.focus = p.focus.size() > 0 ? p.focus(0) : S(1);
     t.sharpness =
         c.gaze == Gaze::sum
@@ -129,7 +134,10 @@ struct TextVisualAttention {
   /// On entry dt.probes is the gradient of the probes; dt is used up.
   static void tables_backward(const Params& p, In<S> words, const Tables& t, Tables& dt,
                               Params& grads, Out<S> dwords) {
-    if (p.silent.size() > 0) grads.silent += dt.probes.col(kSilentWord);
+    if (p.silent.size() > 0) {
+      grads.silent += dt.probes.col(kSilentWord);
+      grads.words += dt.choice;
+    }
     auto dprobes = dt.probes.leftCols(kSilentWord);
     dprobes *= S(1) / std::sqrt(static_cast<S>(p.key.rows()));
     dt.queries.noalias() = p.key * dprobes;

@@ -19,9 +19,13 @@ template <std::floating_point S>
 struct WordTables {
   Matrix<S> queries;  ///< [d_k, V]; not as a gradient
   Matrix<S> probes;   ///< [C, V + 1]; the last column is the silent word's
+  Matrix<S> choice;   ///< [1, V] positive: speaks of types; negative: of colors
   S focus = 1;        ///< in [0, 1]: how far the gaze has focused; not as a gradient
   S sharpness = 1;    ///< beta, inverse temperature of the maps; not as a gradient
-  static constexpr auto fields() { return std::tuple{nn::Field{"probes", &WordTables::probes}}; }
+  static constexpr auto fields() {
+    return std::tuple{nn::Field{"probes", &WordTables::probes},
+                      nn::Field{"choice", &WordTables::choice}};
+  }
 };
 
 }  // namespace wordgaze::model
