@@ -54,9 +54,9 @@ struct Config {
   double gaze_floor = 0.1;                ///< f: what s(M) leaves of the darkest cells
   double object_prior = 2;                ///< initial score of objects over other cells; 0: none
   // Of the product:
-  double sharpness_start = 4;  ///< of the words' maps: their inverse temperature, at first
-  double sharpness = 32;       ///< and when the gaze has focused
-  double nowhere = 0.45;       ///< score of nowhere, as a share of a word's best match
+  double sharpness_start = 4;      ///< of the words' maps: their inverse temperature, at first
+  double sharpness = 32;           ///< and when the gaze has focused
+  double nowhere = 0.45;           ///< score of nowhere, as a share of a word's best match
   double word_choice_start = 2;    ///< slope of the gates between type and color, at first
   double word_choice = 60;         ///< and when the gaze has focused
   double score_cost_start = 1e-6;  ///< weight in the loss of what words say, squared, at first

@@ -29,8 +29,8 @@ struct Lexicon {
     std::array<Matrix<S>, kAttributes> projector;  // [codes, codes] onto what an attribute says
     std::array<Matrix<S>, kAttributes> effect;     // [codes, V] of the raw scores
     std::array<Matrix<S>, kAttributes> scratch;    // [codes, V]
-    Vector<S> of_type;                             ///< [V] share of the type; the color has the rest
-    Eigen::Array<Index, Eigen::Dynamic, 1> best;   ///< [V] the code that matches a word best
+    Vector<S> of_type;                            ///< [V] share of the type; the color has the rest
+    Eigen::Array<Index, Eigen::Dynamic, 1> best;  ///< [V] the code that matches a word best
   };
 
   static void resize(const Design& d, Tables& t) {
@@ -62,7 +62,8 @@ struct Lexicon {
     const Index codes = scores.rows() - 1;
     auto spoken = scores.topRows(codes);
     for (int a = 0; a < kAttributes; ++a) t.effect[a].noalias() = t.projector[a] * spoken;
-    t.of_type = (S(1) + (-slope(c, words) * words.choice.row(0).transpose().array()).exp()).inverse();
+    t.of_type =
+        (S(1) + (-slope(c, words) * words.choice.row(0).transpose().array()).exp()).inverse();
     spoken = t.effect[0] * t.of_type.asDiagonal();
     spoken += t.effect[1] * (S(1) - t.of_type.array()).matrix().asDiagonal();
     for (Index v = 0; v < scores.cols(); ++v) {
@@ -87,9 +88,9 @@ struct Lexicon {
     dt.scratch[0] = dspoken * t.of_type.asDiagonal();
     dt.scratch[1] = dspoken - dt.scratch[0];
     // Projectors are symmetric, and twice applied are as once.
-    const auto price =
-        static_cast<S>(focused(c.score_cost_start, c.score_cost, static_cast<double>(words.focus))) *
-        words.sharpness * words.sharpness;
+    const auto price = static_cast<S>(focused(c.score_cost_start, c.score_cost,
+                                              static_cast<double>(words.focus))) *
+                       words.sharpness * words.sharpness;
     dspoken = price * (t.effect[0] + t.effect[1]);
     for (int a = 0; a < kAttributes; ++a) dspoken.noalias() += t.projector[a] * dt.scratch[a];
   }
