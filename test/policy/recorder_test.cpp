@@ -37,7 +37,9 @@ struct Listener final : Observer {
 };
 
 TEST(Recorder, TellsWhatWasSeenDecidedAndWhatCameOfIt) {
-  const Agent agent(model::Config{}, model::CellAlphabet::one_room());
+  model::Config config;
+  config.gaze = model::Gaze::sum;  // whose maps leave nothing to nowhere
+  const Agent agent(config, model::CellAlphabet::one_room());
   core::Rng rng(1);
   const auto weights = agent.make_weights(agent.initialize(rng));
   NetworkPolicy<Agent> policy(agent, weights, 2);
