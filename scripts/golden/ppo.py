@@ -72,10 +72,10 @@ def ppo_loss(choice):
 
 
 def mask_loss(choice):
-    """L_TA of a sentence of two clauses and the words between them."""
+    """L_TA of a sentence of two clauses and the words between them, which are dark."""
     clause_of, bright = [0] * 4 + [-1] + [1] * 5, [0, 1]
     logits = torch.tensor([choice.gauss(0, 2) for _ in clause_of], requires_grad=True)
-    truth = torch.tensor([1.0 if c < 0 else float(bright[c]) for c in clause_of])
+    truth = torch.tensor([0.0 if c < 0 else float(bright[c]) for c in clause_of])
     loss = F.binary_cross_entropy_with_logits(logits, truth)
     loss.backward()
     return {"clause_of": clause_of, "bright": bright, "alpha": logits.sigmoid().tolist(),

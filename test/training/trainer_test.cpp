@@ -149,14 +149,14 @@ TEST(Trainer, TheTaskModuleLearnsAtItsOwnRate) {
   Trainer still(config);
   const auto before = still.params();
   still.update();
-  EXPECT_EQ(before.task.output.weight, still.params().task.output.weight);
-  EXPECT_EQ(before.task.hidden.bias, still.params().task.hidden.bias);
+  EXPECT_EQ(before.task.scan.words, still.params().task.scan.words);
+  EXPECT_EQ(before.task.scan.rules, still.params().task.scan.rules);
   EXPECT_NE(before.words, still.params().words);
   config.ppo.task_learning_rate = 1e-3;
   config.ppo.learning_rate = 0;
   Trainer task(config);
   task.update();
-  EXPECT_NE(before.task.output.weight, task.params().task.output.weight);
+  EXPECT_NE(before.task.scan.words, task.params().task.scan.words);
   EXPECT_EQ(before.words, task.params().words);
   EXPECT_EQ(before.actor.output.weight, task.params().actor.output.weight);
 }
