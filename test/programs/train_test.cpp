@@ -137,8 +137,8 @@ TEST_F(Train, RefusesACheckpointOfAnotherShape) {
 }
 
 TEST_F(Train, RefusesUnknownEnvironments) {
-  EXPECT_TRUE(refused(run("train --config tiny.toml --out a --set env=Wordgaze-Five-N8-K4-v0"),
-                      "Wordgaze-Five-N8-K4-v0", "Wordgaze-One-N8-K4-v0"));
+  EXPECT_TRUE(refused(run("train --config tiny.toml --out a --set env=Wordgaze-Nine-N8-K4-v0"),
+                      "Wordgaze-Nine-N8-K4-v0", "Wordgaze-One-N8-K4-v0"));
 }
 
 TEST_F(Train, RefusesARoomTooSmallForItsObjects) {

@@ -54,13 +54,13 @@ struct Config {
   double gaze_floor = 0.1;                ///< f: what s(M) leaves of the darkest cells
   double object_prior = 2;                ///< initial score of objects over other cells; 0: none
   // Of the product:
-  double sharpness_start = 4;      ///< of the words' maps: their inverse temperature, at first
-  double sharpness = 32;           ///< and when the gaze has focused
-  double nowhere = 0.45;           ///< score of nowhere, as a share of a word's best match
-  double word_choice_start = 2;    ///< slope of the gates between type and color, at first
-  double word_choice = 60;         ///< and when the gaze has focused
-  double score_cost_start = 1e-6;  ///< weight in the loss of what words say, squared, at first
-  double score_cost = 1e-7;        ///< and when the gaze has focused
+  double sharpness_start = 8;        ///< of the words' maps: their inverse temperature, at first
+  double sharpness = 32;             ///< and when the gaze has focused
+  double nowhere = 0.45;             ///< score of nowhere, as a share of a word's best match
+  double word_choice_start = 2;      ///< slope of the gates between type and color, at first
+  double word_choice = 60;           ///< and when the gaze has focused
+  double score_cost_start = 2.5e-7;  ///< weight in the loss of what words say, squared, at first
+  double score_cost = 3e-8;          ///< and when the gaze has focused
   // Of the sum:
   double gaze_exponent = 2;  ///< p in s(M) = f + (1 - f) (M / max M)^p
   double encoder_bias = 1;   ///< initial bias of the visual encoder: near-linear at the start
