@@ -128,9 +128,14 @@ def encode_text(p, mission, mask):
     return h[0]
 
 
+def look_of_objects(p, config):
+    """O~ of each object [C, 18]"""
+    return torch.cat([encode_view(p, config, [code] * VIEW * VIEW)[:, :1] for code in OBJECTS], dim=1)
+
+
 def effects_of(p, config):
     """What each word of the vocabulary says of types and of colors, each [3, 6, V]."""
-    codes = torch.cat([encode_view(p, config, [code] * VIEW * VIEW)[:, :1] for code in OBJECTS], dim=1)
+    codes = look_of_objects(p, config)
     queries = p["attention.query"] @ p["words"]
     raw = (p["attention.key"] @ codes).T @ queries / math.sqrt(config["key_size"])
     table = raw.view(3, COLORS, VOCABULARY)
@@ -162,7 +167,7 @@ def look(p, config, image, view, mission):
                 scores[i, cell] = said[OBJECTS.index(tuple(code)), word]
         scores[i, -1] = nowhere[word]
     beta = geometric(config["sharpness_start"], config["sharpness"], config["focus"])
-    silent = torch.cat([p["attention.silent"] @ view, torch.zeros(1)])
+    silent = p["attention.silent"] @ torch.cat([view, look_of_objects(p, config).mean(1, True)], dim=1)
     return torch.log_softmax(beta * scores, dim=1), silent
 
 

@@ -17,6 +17,7 @@ class Evaluation:
 OWN = Evaluation("own", "", 2)  # where it was trained, sampled and greedy
 GRID = Evaluation("grid", "--rooms 8,10,12 --objects 4,6,8,10,12", 30)
 GAZE = Evaluation("gaze", "--sample --transparency", 1, 300, 20)
+CROWDED = Evaluation("gaze", "--rooms 8 --objects 4,12 --transparency", 4, 300, 20)
 THREE = Evaluation("three", "--env Wordgaze-Three-N10-K4-v0", 2, cost=3)
 FOUR = Evaluation("four", "--env Wordgaze-Four-N10-K4-v0", 2, cost=4)
 SIX = Evaluation("six", "--env Wordgaze-Six-N10-K8-v0", 2, cost=8)
@@ -40,7 +41,7 @@ class Row:
 
 
 ROWS = [
-    Row("single", "grounding", "single.toml", evaluations=(GRID, GAZE, LARGE), main=True,
+    Row("single", "grounding", "single.toml", evaluations=(GRID, CROWDED, LARGE), main=True,
         model="single-attention", about="attention"),
     Row("baseline", "grounding", "baseline.toml", evaluations=(GRID, GAZE, LARGE), main=True,
         model="single-baseline", about="no attention"),
