@@ -12,6 +12,7 @@
 #include <span>
 
 #include "wordgaze/core/crc32.hpp"
+#include "wordgaze/core/nesting.hpp"
 #include "wordgaze/core/require.hpp"
 #include "wordgaze/io/file.hpp"
 
@@ -148,9 +149,9 @@ void expect(bool ok, fmt::format_string<Args...> message, Args&&... args) {
 
 /// The header as JSON, in which no name occurs twice (the parser alone would keep the last one).
 json parse_header(std::string_view text) {
+  expect(json_nesting(text) <= 3, "its header is nested too deeply");
   std::vector<std::set<std::string>> names;  // of the objects that are open
-  const auto watch = [&](int depth, json::parse_event_t event, json& parsed) {
-    expect(depth <= 3, "its header is nested too deeply");
+  const auto watch = [&](int, json::parse_event_t event, json& parsed) {
     if (event == json::parse_event_t::object_start) names.emplace_back();
     if (event == json::parse_event_t::object_end) names.pop_back();
     if (event == json::parse_event_t::key) {
