@@ -37,13 +37,14 @@ void add_options(CLI::App& app, Arguments& a) {
   what->add_option("--train", a.train, "TOML file: the whole training loop");
   what->add_option("--act", a.act, "TOML file: one decision for one robot");
   what->require_option(1);
-  app.add_option("--envs", a.envs, "environments of --sim")->check(CLI::Range(1, 10'000'000));
+  app.add_option("--envs", a.envs, "environments of --sim")
+      ->check(apps::whole_number(1, 10'000'000));
   app.add_option("--seconds", a.seconds, "at least")->check(CLI::Range(0.01, 3600.0));
   app.add_option("--steps", a.steps, "of --sim, in place of --seconds: at least")
-      ->check(CLI::Range(1, 1'000'000'000));
+      ->check(apps::whole_number(1, 1'000'000'000));
   app.add_option("--frames", a.frames, "of --train, in place of --seconds: at least")
-      ->check(CLI::Range(1, 1'000'000'000));
-  app.add_option("--threads", a.threads, "workers")->check(CLI::Range(1, 256));
+      ->check(apps::whole_number(1, 1'000'000'000));
+  app.add_option("--threads", a.threads, "workers")->check(apps::whole_number(1, 256));
 }
 
 /// Wall and CPU time (of all threads) since its making.

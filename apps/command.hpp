@@ -1,8 +1,13 @@
 #pragma once
 #include <CLI/CLI.hpp>
-#include <array>
+#include <concepts>
 #include <functional>
+#include <limits>
+#include <string>
 #include <string_view>
+
+#include "wordgaze/core/formatted.hpp"
+#include "wordgaze/core/number.hpp"
 
 /// The commands of the program wordgaze, each in a file of its own.
 namespace wordgaze::apps {
@@ -13,6 +18,20 @@ struct Command {
   std::string_view name, about;
   std::function<std::function<int()>(CLI::App& app)> set_up;
 };
+
+/// Accepts whole numbers from `low` to `high`, written as such: what the parser of the command line
+/// would make of "-1", "" or "0x10" is not what was meant.
+template <std::integral Number>
+CLI::Validator whole_number(Number low, Number high = std::numeric_limits<Number>::max()) {
+  return CLI::Validator(
+      [=](std::string& text) -> std::string {
+        const auto number = number_in<Number>(text);
+        if (number && *number >= low && *number <= high) return "";
+        return formatted("expected a whole number from {} to {}; came '{}'", low, high,
+                         shortened(text));
+      },
+      formatted("{} to {}", low, high));
+}
 
 Command train_command();
 Command eval_command();

@@ -44,12 +44,16 @@ void add_options(CLI::App& app, Arguments& a) {
       ->check(CLI::IsMember({"bot", "random", "mixed"}));
   who->require_option(1);
   app.add_option("--rooms", a.rooms, "room sizes N in place of the level's own, as 8,10,12")
-      ->delimiter(',');
-  app.add_option("--objects", a.objects, "numbers of objects K, as 4,8,12")->delimiter(',');
+      ->delimiter(',')
+      ->check(apps::whole_number(1));
+  app.add_option("--objects", a.objects, "numbers of objects K, as 4,8,12")
+      ->delimiter(',')
+      ->check(apps::whole_number(0));
   app.add_option("--env", a.env, "environment in place of the one trained in");
-  app.add_option("--episodes", a.episodes, "a setting")->check(CLI::Range(1, 100'000'000));
-  app.add_option("--seed", a.seed, "episode k runs in the world of seed SEED + k");
-  app.add_option("--threads", a.threads, "0: all processors")->check(CLI::Range(0, 256));
+  app.add_option("--episodes", a.episodes, "a setting")->check(apps::whole_number(1, 100'000'000));
+  app.add_option("--seed", a.seed, "episode k runs in the world of seed SEED + k")
+      ->check(apps::whole_number<std::uint64_t>(0));
+  app.add_option("--threads", a.threads, "0: all processors")->check(apps::whole_number(0, 256));
   app.add_flag("--greedy", a.greedy, "the likeliest action");
   app.add_flag("--sample", a.sample, "actions drawn from the policy");
   app.add_flag("--transparency", a.transparency,

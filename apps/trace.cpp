@@ -1,10 +1,11 @@
 // trace: reads and writes traces of episodes, and compares the simulator with the reference's.
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <iostream>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "wordgaze/babyai/level.hpp"
 #include "wordgaze/bot/policy.hpp"
 #include "wordgaze/core/require.hpp"
+#include "wordgaze/io/file.hpp"
 #include "wordgaze/policy/environment.hpp"
 #include "wordgaze/trace/record.hpp"
 #include "wordgaze/trace/replay.hpp"
@@ -30,25 +32,28 @@ struct Arguments {
 
 // "A:B" as the half-open range of seeds [A, B).
 void parse_seeds(const std::string& text, trace::RecordOptions& options) {
-  std::istringstream in(text);
-  char colon = 0;
-  in >> options.first_seed >> colon >> options.end_seed;
-  if (!in || colon != ':' || !in.eof() || options.first_seed < 0 ||
-      options.end_seed <= options.first_seed) {
-    throw std::invalid_argument(
-        fmt::format("--seeds {}: expected A:B with 0 <= A < B, for the seeds A to B - 1", text));
-  }
+  const std::size_t colon = text.find(':');
+  const auto first = number_in<std::int64_t>(text.substr(0, colon));
+  const auto end = number_in<std::int64_t>(text.substr(std::min(colon, text.size() - 1) + 1));
+  require(colon != text.npos && first && end && *first >= 0 && *end > *first,
+          "--seeds {}: expected A:B with 0 <= A < B, for the seeds A to B - 1", shortened(text));
+  options.first_seed = *first;
+  options.end_seed = *end;
 }
 
 int replay(const std::string& path) {
   std::ifstream file;
   if (path != "-") {
+    io::expect_regular(path);
     file.open(path);
     if (!file) throw std::runtime_error(fmt::format("cannot read '{}'", path));
   }
   const trace::ReplayReport report = trace::replay(path == "-" ? std::cin : file, std::cerr);
   fmt::print("envs {} resets {} steps {} mismatches {}\n", report.envs, report.resets, report.steps,
              report.mismatches);
+  if (report.resets == 0) {
+    throw std::runtime_error(fmt::format("'{}' holds no episode: nothing was compared", path));
+  }
   return report.mismatches == 0 ? 0 : 1;
 }
 
@@ -84,9 +89,11 @@ void add_options(CLI::App& app, Arguments& a) {
           ->excludes(policy);
   app.add_flag("--greedy", a.greedy, "the agent's likeliest actions, not drawn ones")
       ->needs(checkpoint);
-  app.add_option("--policy-seed", a.record.policy_seed, "varies the policy")->needs(env);
+  app.add_option("--policy-seed", a.record.policy_seed, "varies the policy")
+      ->check(apps::whole_number<std::uint64_t>(0))
+      ->needs(env);
   app.add_option("--steps", a.record.steps, "steps for each seed")
-      ->check(CLI::NonNegativeNumber)
+      ->check(apps::whole_number(0))
       ->needs(env);
   app.add_option("--out", a.out, "where to write ('-': standard output)")->needs(env);
   app.add_flag("--done-actions", a.record.done_actions, "the reference's done mode")->needs(env);

@@ -35,9 +35,12 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--config", a.config, "TOML file of settings, as configs/single.toml");
   app.add_option("--out", a.out, "folder for config.toml, metrics.csv and checkpoint.safetensors")
       ->required();
-  app.add_option("--seed", a.seed, "the same as --set seed=S");
-  app.add_option("--frames", a.frames, "the same as --set frames=N");
-  app.add_option("--threads", a.threads, "the same as --set threads=T");
+  app.add_option("--seed", a.seed, "the same as --set seed=S")
+      ->check(apps::whole_number<std::int64_t>(0, 9'000'000'000'000'000'000));
+  app.add_option("--frames", a.frames, "the same as --set frames=N")
+      ->check(apps::whole_number<std::int64_t>(1, 1'000'000'000'000'000));
+  app.add_option("--threads", a.threads, "the same as --set threads=T")
+      ->check(apps::whole_number(1, 256));
   app.add_option("--init", a.init, "checkpoint whose weights to start from (a second phase)");
   app.add_flag("--resume", a.resume, "go on from OUT/checkpoint.safetensors");
   app.add_option("--set", a.set, "section.key=value, as often as wanted")
@@ -114,11 +117,14 @@ int run(const Arguments& a) {
   apps::Listeners listeners(options);
 
   fs::create_directories(out);
+  io::clear_temporaries(out, {"config.toml", "metrics.csv", "checkpoint.safetensors"});
   io::write_file(out / "config.toml", io::to_toml(config));
   const auto columns = trainer.columns();
   auto log = a.resume ? io::CsvLog::resume(out / "metrics.csv", columns, "frames",
                                            static_cast<double>(trainer.frames()))
                       : io::CsvLog(out / "metrics.csv", columns);
+  if (!log.gap().empty()) fmt::print(stderr, "note: metrics.csv has a hole: {}\n", log.gap());
+  trainer.set_seconds(log.last("seconds"));
 
   std::signal(SIGINT, [](int) { interrupted = 1; });
   std::signal(SIGTERM, [](int) { interrupted = 1; });
@@ -129,10 +135,12 @@ int run(const Arguments& a) {
       log.append(metrics.values());
       progress.update(std::min(trainer.frames(), config.frames), details(metrics));
       if (trainer.updates() % config.checkpoint_every == 0) {
+        log.sync();
         training::save_checkpoint(checkpoint, config, trainer.state());
       }
     }
   }
+  log.sync();
   training::save_checkpoint(checkpoint, config, trainer.state());
   if (!trainer.finished()) {
     fmt::print(stderr,

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <system_error>
 
-#include "wordgaze/core/formatted.hpp"
+#include "wordgaze/core/require.hpp"
 
 namespace wordgaze::babyai {
 namespace {
@@ -16,6 +16,8 @@ std::optional<int> take(std::string_view& text, std::string_view name) {
   int value = 0;
   const char* begin = text.data() + name.size();
   const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
+  require(error != std::errc::result_out_of_range,
+          "environment '...{}': the number is too large for any level", shortened(text));
   const auto behind = static_cast<std::size_t>(end - text.data());
   if (error != std::errc{} || behind == text.size() || *end != ']') return std::nullopt;
   text.remove_prefix(behind + 1);

@@ -41,10 +41,10 @@ std::string nearest_ids(std::string_view id) {
              {"Wordgaze-One-N8-K4-v0", "Wordgaze-Two-N8-K4-v0", "Wordgaze-Three-N8-K4-v0",
               "Wordgaze-Four-N8-K4-v0", "Wordgaze-Five-N8-K8-v0", "Wordgaze-Six-N8-K8-v0",
               "Wordgaze-Seven-N8-K8-v0", "Wordgaze-Eight-N8-K8-v0"});
-  std::stable_sort(ids.begin(), ids.end(), [&](const std::string& a, const std::string& b) {
-    return edit_distance(id, a) < edit_distance(id, b);
-  });
-  return ids[0] + ", " + ids[1] + ", " + ids[2];
+  std::vector<std::pair<std::size_t, std::string>> far;
+  for (std::string& known : ids) far.emplace_back(edit_distance(id, known), std::move(known));
+  std::ranges::stable_sort(far, {}, &std::pair<std::size_t, std::string>::first);
+  return far[0].second + ", " + far[1].second + ", " + far[2].second;
 }
 
 }  // namespace
@@ -69,9 +69,9 @@ LevelSpec find_level(std::string_view id) {
   require(!id.starts_with("MiniGrid-WFC-"),
           "environment '{}' is not available: its patterns are missing from the reference's own "
           "package",
-          id);
-  throw std::invalid_argument(
-      formatted("unknown environment '{}'; the nearest known ids are {}", id, nearest_ids(id)));
+          shortened(id));
+  throw std::invalid_argument(formatted("unknown environment '{}'; the nearest known ids are {}",
+                                        shortened(id), nearest_ids(id)));
 }
 
 std::vector<std::string> level_ids() {
@@ -87,7 +87,8 @@ void register_level(LevelSpec level) {
   const std::string& id = level.id;
   // Programs take ids in lists with commas, and brackets hold edits.
   require(!id.empty() && id.find_first_of(" \t\n,[]") == id.npos,
-          "register_level: '{}' is no id; expected one without spaces, commas and brackets", id);
+          "register_level: '{}' is no id; expected one without spaces, commas and brackets",
+          shortened(id));
   require(!is_built_in(id) && !wordgaze_level(id),
           "register_level: '{}' is the id of a built-in level; choose another", id);
   validate(level);

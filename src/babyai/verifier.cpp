@@ -30,6 +30,24 @@ void Verifier::refresh(const World& world) {
   }
 }
 
+bool Verifier::is_sound(const World& world, const Instruction& instruction, DoneMode mode) const {
+  if (mode_ != mode || clauses_ != instruction.clauses()) return false;
+  for (int k = 0; k < kMax; ++k) {
+    const int most = k < clauses_ ? 1 : 0;
+    if (completed_[k] > most || matched_[k] > most) return false;
+    if (held_[k] == grid::kNothing) continue;
+    const bool thing = held_[k] < world.objects.size() && can_be_carried(world.object(held_[k]));
+    if (most == 0 || !thing) return false;
+  }
+  const ObjectSet walls = grid::only(grid::kNothing) | grid::only(grid::kWall);
+  const bool all = world.objects.size() >= grid::kMaxObjects;
+  const ObjectSet things =
+      (all ? ~ObjectSet{0} : grid::only(static_cast<ObjectId>(world.objects.size())) - 1) & ~walls;
+  Verifier turns = *this;
+  turns.update_turns(instruction);
+  return (seen_ & ~things) == 0 && turns.declarable_ == declarable_;
+}
+
 Status Verifier::verify(const World& world, const Task& task, Action action) {
   return mode_ == DoneMode::sequential ? verify_sequential(world, task, action)
                                        : verify_in_order(world, task, action);

@@ -2,16 +2,19 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <limits>
 
 #include "wordgaze/babyai/generators.hpp"
 #include "wordgaze/core/formatted.hpp"
+#include "wordgaze/core/number.hpp"
 
 namespace wordgaze::babyai {
 namespace {
 
 constexpr std::array<std::string_view, Instruction::kMaxClauses> kNumbers{
     "One", "Two", "Three", "Four", "Five", "Six", "Seven", "Eight"};
+
+constexpr std::size_t kMostDigits = 40;  // of a number in an id
 
 // Reads an id from the front.
 class IdReader {
@@ -23,11 +26,11 @@ class IdReader {
     rest_.remove_prefix(token.size());
     return true;
   }
-  // At most four digits.
+  // A number that is too large for an int becomes the largest: too large for a level too.
   bool read(int& number) {
     const std::size_t digits = std::min(rest_.find_first_not_of("0123456789"), rest_.size());
-    if (digits == 0 || digits > 4) return false;
-    std::from_chars(rest_.data(), rest_.data() + digits, number);
+    if (digits == 0 || digits > kMostDigits) return false;
+    number = number_in<int>(rest_.substr(0, digits)).value_or(std::numeric_limits<int>::max());
     rest_.remove_prefix(digits);
     return true;
   }

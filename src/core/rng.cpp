@@ -11,9 +11,15 @@ Seed::Seed(std::uint64_t value) : words_{static_cast<std::uint32_t>(value)} {
   if (value >> 32 != 0) words_.push_back(static_cast<std::uint32_t>(value >> 32));
 }
 
+namespace {
+constexpr std::size_t kMostDigits = 10'000;  // the work grows with their square
+}
+
 Seed Seed::parse(std::string_view digits) {
   require(!digits.empty() && digits.find_first_not_of("0123456789") == digits.npos,
-          "seed '{}': expected a non-negative integer in decimal digits", digits);
+          "seed '{}': expected a non-negative integer in decimal digits", shortened(digits));
+  require(digits.size() <= kMostDigits, "seed '{}': expected at most {} digits", shortened(digits),
+          kMostDigits);
   Seed seed(0);
   for (char digit : digits) {
     std::uint64_t carry = static_cast<std::uint64_t>(digit - '0');

@@ -14,6 +14,19 @@ void Grid::clear(int width, int height) {
   }
 }
 
+bool Grid::is_framed() const {
+  constexpr int kMaxSide = 1024;
+  if (width_ < 1 || height_ < 1 || width_ > kMaxSide || height_ > kMaxSide) return false;
+  Grid whole;
+  whole.clear(width_, height_);
+  if (cells_.size() != whole.cells_.size()) return false;
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    // Inside, anything may stand.
+    if (whole.cells_[i] == kWall && cells_[i] != kWall) return false;
+  }
+  return true;
+}
+
 void Grid::wall_rectangle(Position corner, int width, int height) {
   wall_row(corner, width);
   wall_row(corner + at(0, height - 1), width);

@@ -2,12 +2,21 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+
+// What toml++ asserts of its input is an error of the text, in every build: 3.3 asserts "[= x"
+// away.
+[[noreturn]] static void fail_assertion() { throw std::invalid_argument("a key is missing"); }
+#pragma push_macro("NDEBUG")
+#undef NDEBUG
+#define TOML_ASSERT(expr) ((expr) ? void() : fail_assertion())
+#include <toml++/toml.h>
+#pragma pop_macro("NDEBUG")
 
 #include "wordgaze/core/edit_distance.hpp"
 #include "wordgaze/core/require.hpp"
@@ -51,7 +60,7 @@ std::string value_text(const Value& value) {
   return std::visit(
       [](const auto& v) -> std::string {
         using V = std::remove_cvref_t<decltype(v)>;
-        if constexpr (std::same_as<V, std::string>) return "the text " + toml_string(v);
+        if constexpr (std::same_as<V, std::string>) return "the text " + toml_string(shortened(v));
         if constexpr (std::same_as<V, bool>) return v ? "true" : "false";
         if constexpr (std::same_as<V, double>) return "the number " + real_text(v);
         if constexpr (std::same_as<V, std::int64_t>) return fmt::format("the integer {}", v);
@@ -83,7 +92,7 @@ const Option& find(Options options, std::string_view key, std::string_view where
   const auto found = std::ranges::find_if(options, [&](const Option& option) {
     return option.key == key || (!option.former_key.empty() && option.former_key == key);
   });
-  require(found != options.end(), "{}: unknown key '{}'; did you mean '{}'?", where, key,
+  require(found != options.end(), "{}: unknown key '{}'; did you mean '{}'?", where, shortened(key),
           meant(key, options));
   return *found;
 }
@@ -144,27 +153,44 @@ void assign_table(Options options, const toml::table& table, const std::string& 
   }
 }
 
-/// What follows "key=" on a command line: TOML where it is TOML, else the bare text.
-Value command_line_value(std::string_view text, Kind kind) {
-  Value bare = std::string(text);
-  try {
-    const toml::table parsed = toml::parse("value = " + std::string(text));
-    const std::optional<Value> value = scalar(*parsed.get("value"));
-    const bool usable = parsed.size() == 1 && value &&
-                        ((kind != Kind::text && kind != Kind::choice) ||
-                         std::holds_alternative<std::string>(*value));
-    return usable ? *value : bare;
-  } catch (const toml::parse_error&) {
-    return bare;
-  }
+/// Lists, tables and the parts of a key nest, and the parser recurs: no configuration of ours comes
+/// near these bounds.
+void check_bounds(std::string_view toml, std::string_view source) {
+  constexpr std::ptrdiff_t kMostNesting = 2000;
+  const auto nests = [](char c) { return c == '.' || c == '[' || c == '{'; };
+  require(toml.size() <= kMostConfigBytes, "{}: {} bytes; a configuration has at most {}", source,
+          toml.size(), kMostConfigBytes);
+  require(std::ranges::count_if(toml, nests) <= kMostNesting,
+          "{}: more than {} dots and opening brackets; a configuration has fewer", source,
+          kMostNesting);
 }
 
 toml::table parsed(std::string_view toml, std::string_view source) {
+  check_bounds(toml, source);
   try {
     return toml::parse(toml);
   } catch (const toml::parse_error& error) {
     throw std::invalid_argument(fmt::format("{}:{}: not valid TOML: {}", source,
-                                            error.source().begin.line, error.description()));
+                                            error.source().begin.line,
+                                            shortened(error.description(), 300)));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: not valid TOML: {}", source, error.what()));
+  }
+}
+
+/// What follows "key=" on a command line: TOML where it is TOML, else the bare text.
+Value command_line_value(std::string_view text, Kind kind) {
+  Value bare = std::string(text);
+  check_bounds(text, "--set");
+  try {
+    const toml::table table = parsed("value = " + std::string(text), "--set");
+    const std::optional<Value> value = scalar(*table.get("value"));
+    const bool usable = table.size() == 1 && value &&
+                        ((kind != Kind::text && kind != Kind::choice) ||
+                         std::holds_alternative<std::string>(*value));
+    return usable ? *value : bare;
+  } catch (const std::invalid_argument&) {
+    return bare;
   }
 }
 
@@ -183,14 +209,14 @@ void parse_section_into(Options options, std::string_view section, std::string_v
 }
 
 void assign_into(Options options, std::string_view assignment) {
-  const std::size_t equals = assignment.find('=');
-  require(equals != std::string_view::npos && equals > 0,
-          "--set {}: expected section.key=value, as in --set {}=...", assignment,
-          options.empty() ? "key" : options.back().key);
-  const std::string where = fmt::format("--set {}", assignment);
+  const std::string where = fmt::format("--set {}", shortened(assignment));
+  const std::size_t equals = std::min(assignment.find('='), assignment.size());
+  require(equals > 0, "{}: expected section.key=value", where);
   const Option& option = find(options, assignment.substr(0, equals), where);
   require(option.kind != Kind::section, "{}: {} is a section; set one of its keys, as {}.key=value",
           where, option.key, option.key);
+  require(equals < assignment.size(), "{}: without a value; expected {}, as in --set {}={}", where,
+          expected_text(option), option.key, option.text());
   assign(option, command_line_value(assignment.substr(equals + 1), option.kind), where);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include <span>
 
 #include "wordgaze/core/crc32.hpp"
+#include "wordgaze/core/nesting.hpp"
 #include "wordgaze/core/require.hpp"
 #include "wordgaze/io/file.hpp"
 
@@ -26,7 +28,8 @@ constexpr std::string_view kMetadata = "__metadata__";
 constexpr std::string_view kChecksum = "wordgaze.crc32";
 constexpr std::string_view kNoChecksum = "00000000";  // in its place while the checksum is computed
 constexpr std::size_t kLengthBytes = 8;
-constexpr std::size_t kLargestHeader = 100'000'000;  // as in the reference implementation
+constexpr std::size_t kLargestHeader = 16 << 20;
+constexpr std::size_t kMostNames = 10'000;  // in one object of the header: the parser walks them
 
 /// Names of the number types, in the order of Tensor::Values.
 constexpr std::array<std::string_view, 4> kTypes{"F32", "F64", "I64", "U8"};
@@ -146,14 +149,15 @@ void expect(bool ok, fmt::format_string<Args...> message, Args&&... args) {
 
 /// The header as JSON, in which no name occurs twice (the parser alone would keep the last one).
 json parse_header(std::string_view text) {
+  expect(json_nesting(text) <= 3, "its header is nested too deeply");
   std::vector<std::set<std::string>> names;  // of the objects that are open
-  const auto watch = [&](int depth, json::parse_event_t event, json& parsed) {
-    expect(depth <= 3, "its header is nested too deeply");
+  const auto watch = [&](int, json::parse_event_t event, json& parsed) {
     if (event == json::parse_event_t::object_start) names.emplace_back();
     if (event == json::parse_event_t::object_end) names.pop_back();
     if (event == json::parse_event_t::key) {
       const auto name = parsed.get<std::string>();
-      expect(names.back().insert(name).second, "its header has '{}' twice", name);
+      expect(names.back().insert(name).second, "its header has '{}' twice", shortened(name));
+      expect(names.back().size() <= kMostNames, "its header has more than {} names", kMostNames);
     }
     return true;
   };
@@ -162,7 +166,8 @@ json parse_header(std::string_view text) {
     expect(header.is_object(), "its header is not a JSON object");
     return header;
   } catch (const json::exception& error) {
-    throw std::runtime_error(fmt::format("its header is not JSON: {}", error.what()));
+    throw std::runtime_error(
+        fmt::format("its header is not JSON: {}", shortened(error.what(), 300)));
   }
 }
 
@@ -175,7 +180,7 @@ std::vector<std::uint64_t> counts(const json& entry, const char* key, std::strin
   const auto found = entry.find(key);
   const auto is_count = [](const json& number) { return number.is_number_unsigned(); };
   expect(found != entry.end() && found->is_array() && std::ranges::all_of(*found, is_count),
-         "tensor '{}' has no valid {}", name, key);
+         "tensor '{}' has no valid {}", shortened(name), key);
   return found->get<std::vector<std::uint64_t>>();
 }
 
@@ -183,25 +188,26 @@ std::vector<std::uint64_t> counts(const json& entry, const char* key, std::strin
 std::pair<Tensor, Extent> read_tensor(const std::string& name, const json& entry,
                                       std::string_view data) {
   expect(entry.is_object() && entry.contains("dtype") && entry["dtype"].is_string(),
-         "tensor '{}' has no valid dtype", name);
+         "tensor '{}' has no valid dtype", shortened(name));
   const auto type = entry["dtype"].get<std::string>();
   auto values = values_of_type(type);
   expect(values.has_value(), "tensor '{}' has numbers of type '{}', expected F32, F64, I64 or U8",
-         name, type);
+         shortened(name), shortened(type));
 
   const auto shape = counts(entry, "shape", name);
   const auto offsets = counts(entry, "data_offsets", name);
-  expect(offsets.size() == 2, "tensor '{}' has no valid data_offsets", name);
-  const auto [begin, end] = std::array{offsets[0], offsets[1]};
+  expect(offsets.size() == 2, "tensor '{}' has no valid data_offsets", shortened(name));
+  const std::uint64_t begin = offsets[0], end = offsets[1];
   expect(begin <= end && end <= data.size(),
-         "tensor '{}' is said to lie at bytes {} to {}, but there are {} (truncated?)", name, begin,
-         end, data.size());
+         "tensor '{}' is said to lie at bytes {} to {}, but there are {} (truncated?)",
+         shortened(name), begin, end, data.size());
 
   Tensor tensor{{shape.begin(), shape.end()}, std::move(*values)};
   const auto count = number_of_values(tensor.shape);
   const std::size_t size = number_size(tensor.values);
   expect(count && *count <= data.size() / size && *count * size == end - begin,
-         "tensor '{}' is {}, but has {} bytes", name, description(tensor), end - begin);
+         "tensor '{}' is {}, but has {} bytes", shortened(name), shortened(description(tensor)),
+         end - begin);
   std::visit(
       [&](auto& v) {
         v.resize(*count);
@@ -216,7 +222,7 @@ void expect_no_gaps(std::vector<Extent> extents, std::uint64_t size) {
   std::uint64_t end = 0;
   for (const Extent& extent : extents) {
     expect(extent.begin == end, "tensor '{}' begins at byte {}, but the one before ends at {}",
-           extent.name, extent.begin, end);
+           shortened(extent.name), extent.begin, end);
     end = extent.end;
   }
   expect(end == size, "there are {} bytes behind the last tensor", size - end);
@@ -231,10 +237,10 @@ void expect_checksum(std::string_view file, std::size_t digits, std::string_view
       written == fmt::format("{:08x}", checksum),
       "its checksum is {:08x}, but it says {}: the file is corrupted (or another program rewrote "
       "it; then remove the metadata entry '{}')",
-      checksum, written, kChecksum);
+      checksum, shortened(written), kChecksum);
 }
 
-TensorMap parse(std::string_view file) {
+TensorMap parse(std::string_view file, bool& checked) {
   std::uint64_t length = 0;
   expect(file.size() >= kLengthBytes, "it has only {} bytes; not a safetensors file", file.size());
   std::memcpy(&length, file.data(), kLengthBytes);
@@ -260,7 +266,9 @@ TensorMap parse(std::string_view file) {
     }
   }
   expect_no_gaps(std::move(extents), data.size());
-  if (const auto checksum = content.metadata.extract(std::string(kChecksum))) {
+  const auto checksum = content.metadata.extract(std::string(kChecksum));
+  checked = !checksum.empty();
+  if (checked) {
     const std::size_t digits = checksum_position(header);
     expect(digits != std::string_view::npos, "its checksum is not written as it should be");
     expect_checksum(file, kLengthBytes + digits, checksum.mapped());
@@ -270,10 +278,13 @@ TensorMap parse(std::string_view file) {
 
 }  // namespace
 
-TensorMap read_safetensors(const std::filesystem::path& path) {
+TensorMap read_safetensors(const std::filesystem::path& path, bool* checked) {
   const std::string file = read_file(path);
   try {
-    return parse(file);
+    bool has_checksum = false;
+    TensorMap content = parse(file, has_checksum);
+    if (checked != nullptr) *checked = has_checksum;
+    return content;
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(fmt::format("cannot read '{}': {}", path.string(), error.what()));
   }

@@ -1,13 +1,16 @@
 #include "wordgaze/io/weights_file.hpp"
 
 #include <array>
+#include <cstdio>
 #include <functional>
+#include <mutex>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "wordgaze/core/formatted.hpp"
 #include "wordgaze/io/safetensors.hpp"
 
 namespace wordgaze::io {
@@ -47,6 +50,18 @@ std::string brought_up_to_date(const std::string& toml) {
   return others.insert(at + header.size(), model);
 }
 
+/// Once a file: a command may read it several times.
+void say_unchecked(const std::filesystem::path& path) {
+  static std::mutex mutex;
+  static std::set<std::filesystem::path> said;
+  const std::scoped_lock lock(mutex);
+  if (!said.insert(path).second) return;
+  std::fprintf(stderr,
+               "note: '%s' has no checksum (wordgaze.crc32), as if another program had written it: "
+               "whether it is damaged is not checked\n",
+               path.c_str());
+}
+
 }  // namespace
 
 void fail_weights_file(const std::filesystem::path& path, const std::string& what) {
@@ -54,7 +69,8 @@ void fail_weights_file(const std::filesystem::path& path, const std::string& wha
 }
 
 TensorMap read_weights_file(const std::filesystem::path& path) {
-  TensorMap map = read_safetensors(path);
+  bool checked = false;
+  TensorMap map = read_safetensors(path, &checked);
   const auto format = map.metadata.find("wordgaze.format");
   if (format == map.metadata.end() || !map.metadata.contains("wordgaze.config")) {
     fail_weights_file(
@@ -63,9 +79,11 @@ TensorMap read_weights_file(const std::filesystem::path& path) {
         "no wordgaze.format)");
   }
   if (format->second != kWeightsFormat && format->second != kFirstFormat) {
-    fail_weights_file(path, "format " + format->second + ", this program reads the formats " +
-                                std::string(kFirstFormat) + " and " + std::string(kWeightsFormat));
+    fail_weights_file(path, "format " + shortened(format->second) +
+                                ", this program reads the formats " + std::string(kFirstFormat) +
+                                " and " + std::string(kWeightsFormat));
   }
+  if (!checked) say_unchecked(path);
   return map;
 }
 

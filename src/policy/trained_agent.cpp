@@ -1,21 +1,51 @@
 #include "wordgaze/policy/trained_agent.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
+#include "wordgaze/core/formatted.hpp"
 #include "wordgaze/io/config_file.hpp"
 #include "wordgaze/io/parameters.hpp"
 #include "wordgaze/io/weights_file.hpp"
 
 namespace wordgaze::policy {
+namespace {
+
+/// What the settings make room for must be there: each size is one of some tensor. Asked before
+/// anything is allocated.
+void check_sizes(const io::TensorMap& map, const model::Config& c) {
+  const auto expect = [&](std::string_view name, std::size_t axis, std::int64_t size,
+                          std::string_view setting) {
+    const io::Tensor& tensor = map.tensor(name);
+    if (axis < tensor.shape.size() && tensor.shape[axis] == size) return;
+    throw std::runtime_error(
+        formatted("{} is {}, but model.{} in its configuration asks for {} along axis {}", name,
+                  io::description(tensor), setting, size, axis));
+  };
+  expect("words", 0, c.word_size, "word_size");
+  expect("memory.input_weight", 0, 4 * c.memory_size, "memory_size");
+  expect("memory.input_weight", 1, grid::kViewCells * c.channels, "channels");
+  expect("text.hidden_weight", 1, c.text_size, "text_size");
+  expect("actor.hidden.weight", 0, c.head_size, "head_size");
+  if (c.attention) expect("attention.query", 0, c.key_size, "key_size");
+  if (c.task_attention && !model::scans(c)) {
+    expect("task.hidden.weight", 0, c.task_size, "task_size");
+  }
+}
+
+}  // namespace
 
 TrainedAgent TrainedAgent::load(const std::filesystem::path& path,
                                 const model::CellAlphabet& alphabet) {
   const io::TensorMap map = io::read_weights_file(path);
   try {
-    const Agent agent(
-        io::parse_section<model::Config>(io::configuration_text(map), "model", "wordgaze.config"),
-        alphabet);
+    const auto config =
+        io::parse_section<model::Config>(io::configuration_text(map), "model", "wordgaze.config");
+    check_sizes(map, config);
+    const Agent agent(config, alphabet);
     auto params = agent.make_params();
     io::get_parameters(
         map, "", [](const nn::Path&) { return false; }, params);

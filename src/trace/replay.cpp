@@ -7,9 +7,13 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 
 #include "records.hpp"
 #include "wordgaze/babyai/level.hpp"
+#include "wordgaze/core/formatted.hpp"
+#include "wordgaze/core/nesting.hpp"
 
 namespace wordgaze::trace {
 namespace {
@@ -29,7 +33,7 @@ class Replay {
     } else if (type == "step") {
       take_step(record);
     } else {
-      throw std::runtime_error(fmt::format("a record of type '{}'", type));
+      throw std::runtime_error(fmt::format("a record of type '{}'", shortened(type)));
     }
   }
 
@@ -127,18 +131,42 @@ class Replay {
   ReplayReport report_;
 };
 
+[[noreturn]] void fail(std::int64_t line, std::string_view what) {
+  throw std::runtime_error(fmt::format("trace, line {}: {}", line, shortened(what, 500)));
+}
+
+/// As std::getline, of lines that end.
+bool next_line(std::istream& in, std::string& line, std::int64_t number) {
+  constexpr std::size_t kLongest = 64 << 20;  // a grid of the largest level is a tenth of it
+  constexpr auto kEnd = std::istream::traits_type::eof();
+  line.clear();
+  auto c = in.rdbuf()->sbumpc();
+  if (c == kEnd) return false;
+  for (; c != kEnd && c != '\n'; c = in.rdbuf()->sbumpc()) {
+    line += static_cast<char>(c);
+    if (line.size() > kLongest) fail(number, "longer than 64 MiB");
+  }
+  return true;
+}
+
+Json parsed(std::string_view line) {
+  constexpr int kDeepest = 100;  // more than the longest instruction and the most boxes in boxes
+  if (json_nesting(line) > kDeepest) throw std::runtime_error("nested too deeply");
+  return Json::parse(line);
+}
+
 }  // namespace
 
 ReplayReport replay(std::istream& in, std::ostream& details) {
   Replay replay(details);
   std::string line;
-  for (std::int64_t number = 1; std::getline(in, line); ++number) {
+  for (std::int64_t number = 1; next_line(in, line, number); ++number) {
     try {
-      replay.take(Json::parse(line));
+      replay.take(parsed(line));
     } catch (const Json::exception& error) {
-      throw std::runtime_error(fmt::format("trace, line {}: {}", number, error.what()));
+      fail(number, error.what());
     } catch (const std::runtime_error& error) {
-      throw std::runtime_error(fmt::format("trace, line {}: {}", number, error.what()));
+      fail(number, error.what());
     }
   }
   return replay.report();

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "wordgaze/core/require.hpp"
 #include "wordgaze/optim/schedule.hpp"
@@ -209,15 +211,28 @@ std::vector<double> Curriculum::state() const {
 void Curriculum::restore(const std::vector<double>& state) {
   require(state.size() == 3 + 2 * (2 + kWindow), "Curriculum: a state has {} numbers, got {}",
           3 + 2 * (2 + kWindow), state.size());
-  auto in = state.begin();
-  pickup_only_ = *in++ != 0;
-  go_to_share_ = *in++;
-  half_done_ = *in++;
-  for (Window* w : {&go_to_, &pickup_}) {
-    w->next = static_cast<std::size_t>(*in++) % kWindow;
-    w->size = std::min(static_cast<std::size_t>(*in++), kWindow);
-    for (auto& s : w->success) s = *in++ != 0;
+  std::size_t k = 0;
+  const auto next = [&](double high) {  // NaN is in no range
+    require(state[k] >= 0 && state[k] <= high,
+            "Curriculum: number {} of a state is {}; expected 0 to {}", k, state[k], high);
+    return state[k++];
+  };
+  const auto whole = [&](std::size_t high) {
+    const double value = next(static_cast<double>(high));
+    require(std::trunc(value) == value,
+            "Curriculum: number {} of a state is {}; expected a whole number", k - 1, value);
+    return static_cast<std::size_t>(value);
+  };
+  Curriculum restored(config_);
+  restored.pickup_only_ = whole(1) != 0;
+  restored.go_to_share_ = next(1);
+  restored.half_done_ = next(1);
+  for (Window* w : {&restored.go_to_, &restored.pickup_}) {
+    w->next = whole(kWindow - 1);
+    w->size = whole(kWindow);
+    for (auto& s : w->success) s = static_cast<std::uint8_t>(whole(1));
   }
+  *this = std::move(restored);
 }
 
 }  // namespace wordgaze::training

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "support/messages.hpp"
 #include "wordgaze/babyai/generator.hpp"
 #include "wordgaze/babyai/level_edit.hpp"
 
@@ -75,6 +76,27 @@ TEST(Instruction, KnowsTheGrammar) {
   EXPECT_FALSE(joined({after, before, after}));
   EXPECT_FALSE(joined({static_cast<Order>(3)}));
   EXPECT_FALSE(is_grammatical({.count = 9}));
+}
+
+TEST(FindLevel, SaysThatARoomIsTooLarge) {
+  const auto refusal = [](const std::string& id) {
+    return message_of<std::invalid_argument>([&] { find_level(id); });
+  };
+  EXPECT_TRUE(contains(refusal("Wordgaze-One-N99999-K4-v0"), "room_size = 99999; expected "));
+  EXPECT_TRUE(contains(refusal("Wordgaze-One-N99999999999-K4-v0"), "room_size = 2147483647"));
+  EXPECT_TRUE(contains(refusal("Wordgaze-One-N8-K99999-v0"), "objects = 99999; expected "));
+  EXPECT_TRUE(contains(refusal("BabyAI-GoToLocal-v0[room_size=5000]"), "room_size = 5000"));
+  EXPECT_TRUE(contains(refusal("BabyAI-GoToLocal-v0[room_size=99999999999]"), "too large"));
+}
+
+TEST(FindLevel, RefusesNovelsAtOnce) {
+  for (const std::string& id :
+       {"Wordgaze-" + std::string(26'300, 'a'), std::string(1'000'000, 'x'),
+        "Wordgaze-One-N" + std::string(1'000'000, '9') + "-K4-v0", std::string(1'000'000, '['),
+        "BabyAI-GoToLocal-v0[room_size=" + std::string(1'000'000, '7') + "]"}) {
+    const auto message = message_of<std::invalid_argument>([&] { find_level(id); });
+    EXPECT_LT(message.size(), 1000u);
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <string>
 
 namespace wordgaze {
 namespace {
@@ -26,6 +27,11 @@ TEST(Formatted, WritesNumbersAsNumbersWhateverTheirType) {
 TEST(Formatted, WritesTheShortestDigitsThatReadAsTheSameNumber) {
   EXPECT_EQ(formatted("{} {} {}", 0.1, 0.1f, 2.0), "0.1 0.1 2");
   EXPECT_EQ(formatted("{}", 1.0 / 3), "0.3333333333333333");
+}
+
+TEST(Shortened, LeavesShortTextsAlone) {
+  EXPECT_EQ(shortened("abc"), "abc");
+  EXPECT_EQ(shortened(std::string(1'000'000, 'x'), 6), "xxx... (1000000 characters)");
 }
 
 }  // namespace

@@ -5,6 +5,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 
 namespace wordgaze::core {
 namespace {
@@ -96,6 +99,17 @@ TEST(Seed, ReadsAndWritesDigitsOfAnyLength) {
 TEST(Seed, RefusesWhatIsNoNonNegativeInteger) {
   for (const char* text : {"", "-1", "+1", "1.5", "1e3", " 1", "0x10"}) {
     EXPECT_THROW(Seed::parse(text), std::invalid_argument) << '\'' << text << '\'';
+  }
+}
+
+TEST(Seed, HasABoundedNumberOfDigits) {
+  const std::string long_one(10'000, '7');
+  EXPECT_EQ(Seed::parse(long_one).text(), long_one);
+  try {
+    Seed::parse(std::string(1'000'000, '7'));
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_LT(std::string_view(error.what()).size(), 300u);
   }
 }
 

@@ -223,7 +223,6 @@ TEST(SetOption, RefusesWhatAFileWouldRefuseAndChangesNothing) {
   EXPECT_TRUE(contains(refusal_to_set("training.steps=many"), "came the text \"many\""));
   EXPECT_TRUE(contains(refusal_to_set("training.decay=cosine"), "none, linear"));
   EXPECT_TRUE(contains(refusal_to_set("training=3"), "is a section"));
-  EXPECT_TRUE(contains(refusal_to_set("training.steps"), "expected section.key=value"));
   EXPECT_TRUE(contains(refusal_to_set("=3"), "expected section.key=value"));
 }
 
@@ -277,6 +276,64 @@ TEST(Reference, ListsEachSettingOfEachSection) {
   EXPECT_TRUE(contains(text, "| `attention` | `true` |  | look at words |\n"));
   EXPECT_TRUE(contains(text, "### training.clip\n\nlimits of an update\n\n| key |"));
   EXPECT_TRUE(contains(text, "| `training.steps` | `20` | [1, 4096] | steps of a rollout |\n"));
+}
+
+TEST(HostileConfiguration, IsRefusedBeforeItIsParsed) {
+  const auto refusal = [](const std::string& toml) {
+    return message_of<std::invalid_argument>([&] { parse_config<Config>(toml, "bad.toml"); });
+  };
+  const auto repeated = [](std::string_view part, int times) {
+    std::string text;
+    for (int i = 0; i < times; ++i) text += part;
+    return text;
+  };
+  for (const std::string& toml :
+       {"[a" + repeated(".a", 50'000) + "]", "a" + repeated(".a", 50'000) + " = 1",
+        "a = " + repeated("[", 50'000), "a = " + repeated("{a = ", 50'000),
+        "a" + repeated(" . \"a\"", 50'000) + " = 1", repeated("a = [{a.a.a.a = [{\n", 20'000)}) {
+    EXPECT_TRUE(contains(refusal(toml), "bad.toml: more than 2000 dots and opening brackets"));
+  }
+  // What is let through is no deeper than the stack.
+  EXPECT_TRUE(contains(refusal("[a" + repeated(".a", 1'990) + "]"), "unknown key 'a'"));
+  EXPECT_TRUE(contains(refusal("a = " + repeated("[", 1'990)), "not valid TOML"));
+  EXPECT_TRUE(contains(refusal(repeated("# long\n", 200'000)), "bad.toml: 1400000 bytes"));
+  EXPECT_LT(refusal(std::string(1'000'000, 'k') + " = 1").size(), 1000u);
+  EXPECT_LT(refusal("attention = \"" + std::string(1'000'000, 'v') + '"').size(), 1000u);
+}
+
+TEST(HostileConfiguration, IsRefusedWhereTheParserAsserts) {
+  for (const char* toml :
+       {"[= x", "[[= x", "[.a]", "[,]", "[[ =", "a = 1\n  [= x", "\xef\xbb\xbf[="}) {
+    EXPECT_TRUE(
+        contains(message_of<std::invalid_argument>([&] { parse_config<Config>(toml, "bad.toml"); }),
+                 "bad.toml"))
+        << toml;
+  }
+}
+
+TEST(HostileAssignment, IsRefused) {
+  Config config;
+  const auto refusal = [&](const std::string& assignment) {
+    return message_of<std::invalid_argument>([&] { set_option(config, assignment); });
+  };
+  EXPECT_TRUE(contains(refusal("training.steps=" + std::string(50'000, '[')), "dots and opening"));
+  EXPECT_TRUE(contains(refusal("training.steps=" + std::string(2'000'000, '7')), "bytes"));
+  EXPECT_LT(refusal(std::string(100'000, 'k') + "=1").size(), 1000u);
+  EXPECT_LT(refusal("training.steps=" + std::string(100'000, '7')).size(), 1000u);
+  EXPECT_TRUE(contains(refusal("training.steps=[= x"), "came the text"));
+  EXPECT_TRUE(contains(refusal("training.steps=18446744073709551616"), "came the text"));
+}
+
+TEST(Assignment, WithoutAValueHintsAtTheValue) {
+  Config config;
+  const auto refusal = [&](const std::string& assignment) {
+    return message_of<std::invalid_argument>([&] { set_option(config, assignment); });
+  };
+  EXPECT_EQ(refusal("training.steps"),
+            "--set training.steps: without a value; expected an integer in the range [1, 4096], as "
+            "in --set training.steps=20");
+  EXPECT_TRUE(contains(refusal("training.step"), "did you mean 'training.steps'?"));
+  EXPECT_TRUE(contains(refusal("training"), "training is a section"));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "support/messages.hpp"
 #include "support/small_disk.hpp"
@@ -45,10 +46,56 @@ TEST_F(CsvLogFile, WritesFloatsWithoutTheirRoundingErrorAndNaNAsNaN) {
   EXPECT_EQ(read_file(path_), "frames,loss\n0.1,nan\n0.3333333,inf\n");
 }
 
-TEST_F(CsvLogFile, StartsAnew) {
-  write_file(path_, "something else");
-  const CsvLog log(path_, columns_);
-  EXPECT_EQ(read_file(path_), "frames,loss\n");
+TEST_F(CsvLogFile, StartsAnewOverItsOwnFileAndOverAnEmptyOne) {
+  for (const char* content : {"", "frames,loss\n50,1\n"}) {
+    write_file(path_, content);
+    const CsvLog log(path_, columns_);
+    EXPECT_EQ(read_file(path_), "frames,loss\n");
+  }
+}
+
+TEST_F(CsvLogFile, LeavesAForeignFileAlone) {
+  for (const char* content : {"something else", "frames,loss,more\n1,2,3\n", "\n", "frames"}) {
+    write_file(path_, content);
+    EXPECT_TRUE(contains(message_of<std::runtime_error>([&] { CsvLog(path_, columns_); }),
+                         "metrics.csv': a file of that name is there, and its header is '"));
+    EXPECT_EQ(read_file(path_), content);
+  }
+}
+
+TEST_F(CsvLogFile, SaysWhichRowsAreMissingOnResume) {
+  const auto gap = [&](const std::string& rows) {
+    write_file(path_, "frames,loss\n" + rows);
+    return CsvLog::resume(path_, columns_, "frames", 150).gap();
+  };
+  EXPECT_EQ(gap("50,1\n100,2\n150,3\n"), "");
+  EXPECT_EQ(gap("50,1\n100,2\n150,3\n200,4\n"), "");
+  EXPECT_EQ(gap("50,1\n150,3\n"), "rows between frames 50 and 150 are missing");
+  EXPECT_EQ(gap("100,2\n150,3\n"), "rows between frames 0 and 100 are missing");
+  EXPECT_EQ(gap("50,1\n100,2\n"), "rows between frames 100 and 150 are missing");
+  EXPECT_EQ(gap("50,1\n100,2\n15"), "rows between frames 100 and 150 are missing");
+  EXPECT_EQ(gap(std::string("50,1\n100,2\n\0\0\0\0", 15)),
+            "rows between frames 100 and 150 are missing");
+  EXPECT_EQ(gap("50,1\n50,1\n100,2\n150,3\n"), "the rows are not in the order of frames");
+  EXPECT_EQ(gap(""), "there are no rows of frames up to 150");
+  std::filesystem::remove(path_);
+  EXPECT_EQ(CsvLog::resume(path_, columns_, "frames", 150).gap(),
+            "the file is not there: there are no rows of frames up to 150");
+  std::filesystem::remove(path_);
+  EXPECT_EQ(CsvLog::resume(path_, columns_, "frames", 0).gap(), "");
+}
+
+TEST_F(CsvLogFile, KnowsTheLastRowItKept) {
+  write_file(path_, "frames,loss\n50,1\n100,2.5\n150,3\n");
+  EXPECT_EQ(CsvLog::resume(path_, columns_, "frames", 100).last("loss"), 2.5);
+  EXPECT_EQ(CsvLog(path_, columns_).last("loss"), 0);
+  EXPECT_THROW(CsvLog(path_, columns_).last("gain"), std::invalid_argument);
+}
+
+TEST_F(CsvLogFile, ReachesTheDisk) {
+  CsvLog log(path_, columns_);
+  append(log, 100, 0.5);
+  EXPECT_NO_THROW(log.sync());
 }
 
 TEST_F(CsvLogFile, ResumesBehindTheCheckpoint) {

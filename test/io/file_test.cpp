@@ -1,10 +1,15 @@
 #include "wordgaze/io/file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <stdexcept>
+#include <string>
 
 #include "support/messages.hpp"
 #include "support/small_disk.hpp"
@@ -80,6 +85,88 @@ TEST(File, ReportsAFullDevice) {
   const std::string message =
       message_of<std::runtime_error>([] { write_file("/dev/full", "does not fit"); });
   EXPECT_EQ(message, "cannot write '/dev/full': No space left on device");
+}
+
+TEST(File, IsNotReadFromPipesAndDevices) {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const fs::path& path : {pipe, fs::path("/dev/zero"), fs::path("/dev/null")}) {
+    const auto refusal = message_of<std::runtime_error>([&] { read_file(path); });
+    EXPECT_TRUE(contains(refusal, "a pipe or a device; expected a regular file")) << path;
+    EXPECT_THROW(expect_regular(path), std::runtime_error);
+  }
+}
+
+TEST(File, TooLargeForTheMemoryIsSaidSo) {
+  const TemporaryFolder folder;
+  write_file(folder / "a", "x");
+  fs::resize_file(folder / "a", std::uintmax_t{1} << 43);  // a hole: it takes no space
+  EXPECT_TRUE(contains(message_of<std::runtime_error>([&] { read_file(folder / "a"); }), "/a': "));
+}
+
+TEST(Text, IsReadFromFilesPipesAndDevices) {
+  const TemporaryFolder folder;
+  write_file(folder / "a", "text");
+  EXPECT_EQ(read_text(folder / "a", 4), "text");
+  EXPECT_EQ(read_text("/dev/null", 4), "");
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  ASSERT_EQ(::write(ends[1], "through a pipe", 14), 14);
+  ::close(ends[1]);
+  EXPECT_EQ(read_text("/dev/fd/" + std::to_string(ends[0]), 100), "through a pipe");
+  ::close(ends[0]);
+}
+
+TEST(Text, IsRefusedWhereItDoesNotEndOrDoesNotBegin) {
+  const TemporaryFolder folder;
+  const auto refusal = [](const fs::path& path) {
+    return message_of<std::runtime_error>([&] { read_text(path, 1000); });
+  };
+  EXPECT_TRUE(contains(refusal("/dev/zero"), "'/dev/zero': more than 1000 bytes"));
+  EXPECT_TRUE(contains(refusal(folder.path()), "Is a directory"));
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_TRUE(contains(refusal(folder / "pipe"), "a pipe into which nobody writes"));
+}
+
+fs::path temporary_of(const fs::path& path, pid_t process) {
+  return path.string() + "." + std::to_string(process) + ".tmp";
+}
+
+TEST(File, IsNotWrittenThroughALinkInPlaceOfTheTemporaryFile) {
+  const TemporaryFolder folder;
+  write_file(folder / "precious", "kept");
+  fs::create_symlink("precious", temporary_of(folder / "a", ::getpid()));
+  write_file(folder / "a", "new");
+  EXPECT_EQ(read_file(folder / "a"), "new");
+  EXPECT_EQ(read_file(folder / "precious"), "kept");
+  EXPECT_FALSE(fs::is_symlink(folder / "a"));
+  EXPECT_EQ(files_in(folder), 2);
+}
+
+TEST(Temporaries, OfProcessesThatAreGoneAreCleared) {
+  const TemporaryFolder folder;
+  const pid_t gone = ::fork();
+  if (gone == 0) ::_exit(0);
+  ASSERT_EQ(::waitpid(gone, nullptr, 0), gone);
+  const std::array left{temporary_of(folder / "a", gone), temporary_of(folder / "b", gone)};
+  const std::array kept{temporary_of(folder / "a", ::getpid()),
+                        temporary_of(folder / "another", gone),
+                        folder / "a",
+                        folder / "a.tmp",
+                        folder / "a..tmp",
+                        folder / "a.0.tmp",
+                        folder / "a.-5.tmp",
+                        folder / "a.12x.tmp",
+                        folder / "a.99999999999999999999.tmp"};
+  for (const fs::path& path : left) write_file(path, "left");
+  for (const fs::path& path : kept) write_file(path, "kept");
+  fs::create_directory(temporary_of(folder / "c", gone));
+  clear_temporaries(folder.path(), {"a", "b", "c"});
+  for (const fs::path& path : left) EXPECT_FALSE(fs::exists(path)) << path;
+  for (const fs::path& path : kept) EXPECT_TRUE(fs::exists(path)) << path;
+  EXPECT_TRUE(fs::exists(temporary_of(folder / "c", gone)));
+  EXPECT_NO_THROW(clear_temporaries(folder / "none", {"a"}));
 }
 
 }  // namespace

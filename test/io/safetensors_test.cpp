@@ -191,5 +191,32 @@ TEST_F(Safetensors, RefusesToWriteWhatItCouldNotRead) {
   EXPECT_FALSE(std::filesystem::exists(path_));
 }
 
+TEST_F(Safetensors, TellsWhetherItWasChecked) {
+  write_safetensors(path_, example());
+  bool checked = false;
+  read_safetensors(path_, &checked);
+  EXPECT_TRUE(checked);
+  std::string file = read_file(path_);
+  file[file.find("wordgaze.crc32") + 3] ^= 1;
+  put(file);
+  read_safetensors(path_, &checked);
+  EXPECT_FALSE(checked);
+}
+
+TEST_F(Safetensors, RefusesHeadersWithoutEnd) {
+  std::string entries;
+  for (int i = 0; i < 300'000; ++i) {
+    entries += fmt::format(R"({}"{}":{{"dtype":"F32","shape":[0],"data_offsets":[0,0]}})",
+                           i == 0 ? "" : ",", i);
+  }
+  EXPECT_TRUE(contains(refusal(file_of("{" + entries + "}", "")), "or truncated"));
+  entries.resize(entries.find(R"(,"20000":)"));
+  EXPECT_TRUE(contains(refusal(file_of("{" + entries + "}", "")), "more than 10000 names"));
+  EXPECT_TRUE(contains(refusal(file_of(std::string(1'000'000, '['), "")), "nested too deeply"));
+  const std::string novel(1'000'000, 'n');
+  EXPECT_LT(refusal(file_of("{\"" + novel + "\":3}", "")).size(), 1000u);
+  EXPECT_LT(refusal(file_of("\"" + novel, "")).size(), 1000u);
+}
+
 }  // namespace
 }  // namespace wordgaze::io

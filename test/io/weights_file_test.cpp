@@ -2,7 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
+#include "support/messages.hpp"
+#include "support/temporary_folder.hpp"
 #include "wordgaze/io/config_file.hpp"
+#include "wordgaze/io/file.hpp"
+#include "wordgaze/io/safetensors.hpp"
 #include "wordgaze/model/config.hpp"
 
 /// Files of format 1 are read as what they were: settings that they lack take the values of then.
@@ -39,6 +46,27 @@ TEST(WeightsFile, OfFormat1MayLackTheSection) {
 
 TEST(WeightsFile, OfTodayHasTodaysDefaults) {
   EXPECT_EQ(config_of("2", "[model]\nattention = true\n"), model::Config{});
+}
+
+TEST(WeightsFile, WithoutItsChecksumIsSaidToBeUnchecked) {
+  const TemporaryFolder folder;
+  const auto path = folder / "weights.safetensors";
+  TensorMap map;
+  map.metadata["wordgaze.format"] = kWeightsFormat;
+  map.metadata["wordgaze.config"] = "";
+  write_safetensors(path, map);
+  testing::internal::CaptureStderr();
+  read_weights_file(path);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  std::string file = read_file(path);
+  file[file.find("wordgaze.crc32")] ^= 1;  // the name, not the sum
+  write_file(path, file);
+  testing::internal::CaptureStderr();
+  read_weights_file(path);
+  read_weights_file(path);
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_TRUE(contains(said, "weights.safetensors' has no checksum (wordgaze.crc32)"));
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1);
 }
 
 }  // namespace

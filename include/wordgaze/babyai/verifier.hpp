@@ -44,6 +44,9 @@ class Verifier {
     return world.last_place(id);
   }
 
+  /// Whether this can be what became of begin() in this world: what a restored one is asked.
+  bool is_sound(const grid::World& world, const Instruction& instruction, DoneMode mode) const;
+
   /// Walks all members, to store or restore them.
   template <class Archive>
   void archive(Archive& archive) {

@@ -61,4 +61,10 @@ std::string formatted(Pattern<sizeof...(Values)> pattern, const Values&... value
   return detail::fill(pattern.text, {detail::as_text(values)...});
 }
 
+/// Text for a message that must stay one: the beginning of a long one, and how long it is.
+inline std::string shortened(std::string_view text, std::size_t longest = 120) {
+  if (text.size() <= longest) return std::string(text);
+  return formatted("{}... ({} characters)", text.substr(0, longest / 2), text.size());
+}
+
 }  // namespace wordgaze

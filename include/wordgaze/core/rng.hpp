@@ -14,7 +14,8 @@ namespace wordgaze::core {
 class Seed {
  public:
   Seed(std::uint64_t value);  // NOLINT: a number is a seed
-  /// Decimal digits. Throws std::invalid_argument for anything else (signs, fractions, nothing).
+  /// At most 10,000 decimal digits. Throws std::invalid_argument for anything else (signs,
+  /// fractions, nothing).
   static Seed parse(std::string_view digits);
 
   /// The decimal digits.

@@ -33,6 +33,9 @@ class Grid {
   void wall_row(Position start, int length);
   void wall_column(Position start, int length);
 
+  /// Whether all cells are there, and walls all around: what a restored grid is asked.
+  bool is_framed() const;
+
   /// Walks all members, to store or restore them.
   template <class Archive>
   void archive(Archive& archive) {

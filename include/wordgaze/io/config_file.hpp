@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -15,6 +16,9 @@
 /// expected and what came; an unknown key comes with the nearest known one. A file that is missing
 /// or cannot be read throws std::runtime_error. Either way nothing is changed.
 namespace wordgaze::io {
+
+/// Longer files are refused, as are those that nest without end.
+inline constexpr std::size_t kMostConfigBytes = 1 << 20;
 
 namespace detail {
 void parse_into(std::span<const Option> options, std::string_view toml, std::string_view source);
@@ -41,10 +45,10 @@ C parse_section(std::string_view toml, std::string_view section, std::string_vie
   return defaults;
 }
 
-/// `defaults` with what the file says.
+/// `defaults` with what the file says, which may be a pipe too.
 template <Section C>
 C read_config(const std::filesystem::path& path, C defaults = {}) {
-  return parse_config<C>(read_file(path), path.string(), std::move(defaults));
+  return parse_config<C>(read_text(path, kMostConfigBytes), path.string(), std::move(defaults));
 }
 
 /// `assignment` is "section.key=value", the value as in TOML; text needs no quotes.

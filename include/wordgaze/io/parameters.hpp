@@ -9,11 +9,16 @@
 /// Trees of parameters as named tensors.
 namespace wordgaze::io {
 
+/// Throws std::runtime_error that names the tensor for numbers that are not finite: they would take
+/// the place of better ones.
 template <nn::Tree P>
 void put_parameters(TensorMap& map, const std::string& prefix, const P& params) {
   nn::for_each_parameter(
       [&](const nn::Path& path, const auto& leaf) {
-        if (leaf.size() > 0) map.tensors.emplace(prefix + path.str(), tensor_of(leaf));
+        if (leaf.size() == 0) return;
+        const std::string name = prefix + path.str();
+        expect_finite(name, leaf);
+        map.tensors.emplace(name, tensor_of(leaf));
       },
       params);
 }
@@ -40,6 +45,10 @@ void get_parameters(const TensorMap& map, const std::string& prefix, Optional&& 
           }
         }
         copy_tensor(map, name, leaf);
+        if (path.names[path.depth - 1] == "focus" && (leaf.minCoeff() < 0 || leaf.maxCoeff() > 1)) {
+          throw std::runtime_error(
+              formatted("{} is {}; expected a share in [0, 1]", name, leaf(0)));
+        }
       },
       params);
 }

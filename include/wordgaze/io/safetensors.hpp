@@ -14,7 +14,7 @@ void write_safetensors(const std::filesystem::path& path, const TensorMap& conte
 
 /// Throws std::runtime_error that names the file and what is wrong with it: not of this layout,
 /// truncated, corrupted, or of a number type that is not supported. Nothing that the file says is
-/// believed before it is checked. A file without checksum is read too.
-TensorMap read_safetensors(const std::filesystem::path& path);
+/// believed before it is checked. A file without checksum is read too: `checked` tells.
+TensorMap read_safetensors(const std::filesystem::path& path, bool* checked = nullptr);
 
 }  // namespace wordgaze::io

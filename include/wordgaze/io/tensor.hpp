@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -11,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "wordgaze/core/formatted.hpp"
 #include "wordgaze/core/types.hpp"
 
 namespace wordgaze::io {
@@ -66,7 +68,22 @@ const std::vector<S>& values_of(const TensorMap& map, std::string_view name,
   return *values;
 }
 
-/// Copies a tensor into a matrix of the right size. Throws as values_of.
+/// Throws std::runtime_error that names the matrix unless all its numbers are finite.
+template <class M>
+void expect_finite(std::string_view name, const Eigen::DenseBase<M>& matrix) {
+  if (matrix.allFinite()) return;
+  for (Index column = 0; column < matrix.cols(); ++column) {
+    for (Index row = 0; row < matrix.rows(); ++row) {
+      const auto value = matrix(row, column);
+      if (std::isfinite(value)) continue;
+      throw std::runtime_error(
+          formatted("{}[{}, {}] is {}; expected finite numbers", name, row, column, value));
+    }
+  }
+}
+
+/// Copies a tensor into a matrix of the right size. Throws as values_of, and for numbers that are
+/// not finite.
 template <class M>
 void copy_tensor(const TensorMap& map, std::string_view name, Eigen::PlainObjectBase<M>& matrix) {
   std::vector<std::int64_t> shape{matrix.rows(), matrix.cols()};
@@ -75,6 +92,7 @@ void copy_tensor(const TensorMap& map, std::string_view name, Eigen::PlainObject
   for (Index row = 0; row < matrix.rows(); ++row) {
     for (Index column = 0; column < matrix.cols(); ++column) matrix(row, column) = *value++;
   }
+  expect_finite(name, matrix);
 }
 
 }  // namespace wordgaze::io

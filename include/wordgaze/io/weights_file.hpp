@@ -11,7 +11,7 @@ namespace wordgaze::io {
 inline constexpr std::string_view kWeightsFormat = "2";
 
 /// Reads the file and makes sure that it is one of ours. Throws std::runtime_error that names the
-/// file and what is wrong with it.
+/// file and what is wrong with it. That a file has no checksum is said on standard error.
 TensorMap read_weights_file(const std::filesystem::path& path);
 
 /// The configuration in it, as TOML. In a file of format 1 it also names what was a matter of

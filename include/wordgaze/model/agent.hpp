@@ -217,7 +217,7 @@ void Agent<S, V, A>::forward(const Weights& w, const Frames<S>& x, const Mission
 template <std::floating_point S, class V, class A>
 void Agent<S, V, A>::attend(const Weights& w, const Frames<S>& x, const Missions& missions,
                             In<S> mission_features, Cache& k, Outputs<S>& y) const {
-  const auto& [p, t] = w;
+  const auto& t = w.tables;  // not a binding, which a lambda cannot capture everywhere
   V::with_scores(*this, t.vision, t.attention, x.cells, k.vision,
                  [&](const auto& counts, auto&& score_of) {
                    A::forward_words(config, t.attention, counts, score_of, x, missions,
@@ -279,7 +279,8 @@ template <std::floating_point S, class V, class A>
 void Agent<S, V, A>::attend_backward(const Weights& w, const Frames<S>& x, const Missions& missions,
                                      const Outputs<S>& y, const Outputs<S>& dy, Cache& k,
                                      Weights& grads) const {
-  const auto& [p, t] = w;
+  const auto& p = w.params;
+  const auto& t = w.tables;
   auto& [dp, dt] = grads;
   A::backward_gaze(config, x, missions, k.alpha, k.dscale, k.attention, k.dalpha);
   if (scans(config)) {

@@ -17,12 +17,14 @@ namespace wordgaze::training {
 
 namespace detail {
 void put_run(io::TensorMap& map, const TrainConfig& config, const RunState& state);
-RunState get_run(const io::TensorMap& map, const TrainConfig& config);
+RunState get_run(const io::TensorMap& map, const TrainConfig& config,
+                 const babyai::LevelSpec& level);
 /// Whether only a second phase of training has this leaf.
 bool only_second_phase(const nn::Path& path);
 }  // namespace detail
 
-/// All or nothing: a failure leaves the file that was there.
+/// All or nothing: a failure leaves the file that was there; so do weights that are not finite. The
+/// same run gives the same bytes: the seconds that it took are not in it.
 template <class Params>
 void save_checkpoint(const std::filesystem::path& path, const TrainConfig& config,
                      const TrainerState<Params>& state) {
@@ -55,7 +57,8 @@ typename Agent::Params load_params(const std::filesystem::path& path,
   }
 }
 
-/// Everything, for Trainer::restore.
+/// Everything, for Trainer::restore, each number in its range; but for the seconds that training
+/// took.
 template <class Agent>
 typename BasicTrainer<Agent>::State load_state(const std::filesystem::path& path,
                                                const BasicTrainer<Agent>& trainer) {
@@ -67,9 +70,18 @@ typename BasicTrainer<Agent>::State load_state(const std::filesystem::path& path
       return params;
     };
     const typename Agent::Params zero = trainer.agent().make_params();
-    return {detail::get_run(map, trainer.config()), get("", trainer.params()),
-            get("adam.mean.", zero), get("adam.variance.", zero)};
-  } catch (const std::runtime_error& error) {
+    typename BasicTrainer<Agent>::State state{
+        detail::get_run(map, trainer.config(), trainer.level()), get("", trainer.params()),
+        get("adam.mean.", zero), get("adam.variance.", zero)};
+    nn::for_each_parameter(
+        [](const nn::Path& at, const auto& leaf) {
+          if (leaf.size() > 0 && leaf.minCoeff() < 0) {
+            throw std::runtime_error("adam.variance." + at.str() + " is negative somewhere");
+          }
+        },
+        state.adam_variance);
+    return state;
+  } catch (const std::exception& error) {
     io::fail_weights_file(path, error.what());
   }
 }

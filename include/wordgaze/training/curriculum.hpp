@@ -45,6 +45,7 @@ class Curriculum {
 
   /// Everything that prepare() depends on, for checkpoints.
   std::vector<double> state() const;
+  /// Throws std::invalid_argument, and changes nothing, for numbers that are not a state.
   void restore(const std::vector<double>& state);
 
  private:

@@ -117,6 +117,8 @@ class BasicTrainer {
 
   std::int64_t frames() const { return frames_; }
   std::int64_t updates() const { return updates_; }
+  /// Of training so far, for a run that goes on: a checkpoint does not know them.
+  void set_seconds(double seconds) { seconds_ = seconds; }
   bool finished() const { return frames_ >= config_.frames; }
   const TrainConfig& config() const { return config_; }
   const babyai::LevelSpec& level() const { return level_; }
