@@ -10,9 +10,9 @@ namespace {
 /// Small, and with everything that a state can hold: clauses, stretched and helped episodes.
 TrainConfig small() {
   TrainConfig c;
-  c.env = "Wordgaze-Two-N6-K3-v0";
+  c.env = "Wordgaze-Two-N8-K3-v0";
   c.threads = 1;
-  c.probe_every = 2;
+  c.probe_every = 100;
   c.model.task_attention = true;
   c.model.memory_size = 8;
   c.ppo.lanes = 6;

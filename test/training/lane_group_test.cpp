@@ -115,8 +115,9 @@ TEST_P(LaneGroupVariant, TheLearnerSeesWhatTheAgentSaw) {
   EXPECT_GT(ends, c.config.ppo.lanes);
   // All that the agent lives on is there to be forgotten.
   EXPECT_GT(r.start_h.cwiseAbs().minCoeff(), 0);
-  EXPECT_GT(r.log_prob.size(), 0u);
-  if (c.config.curriculum.half_done_start > 0) EXPECT_GT(r.completion.sum(), 0);
+  if (c.config.curriculum.half_done_start > 0) {
+    EXPECT_GT(r.completion.sum(), 0);
+  }
 }
 
 TEST_P(LaneGroupVariant, WhatTimeCutsOffIsWorthWhatTheAgentWouldHaveExpected) {
