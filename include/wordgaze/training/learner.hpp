@@ -99,7 +99,7 @@ class Learner {
     }
     in_a_row_ = sums.skipped > 0 ? in_a_row_ + 1 : 0;
     if (sums.applied == 0) fail("in every minibatch, " + culprit);
-    if (in_a_row_ == kPatience) fail(std::to_string(kPatience) + " updates in a row, " + culprit);
+    if (in_a_row_ >= kPatience) fail(std::to_string(kPatience) + " updates in a row, " + culprit);
     if (const auto what = flaw_of(weights_.params, adam_); !what.empty()) fail(what);
     return report(sums, static_cast<double>(size) * rollout.chunk);
   }
