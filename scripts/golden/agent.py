@@ -60,6 +60,8 @@ def random_parameters(choice, config):
     else:
         shapes = {"visual.weight": (c, FEATURES), "visual.bias": (c,)}
     shapes |= {"words": (e, VOCABULARY)}
+    if config.get("completion_input"):
+        shapes |= {"completion": (4 * h, config["clauses"])}
     if config["attention"]:
         shapes |= {"attention.query": (d, e), "attention.key": (d, c)}
         if config["gaze"] == "product":
@@ -119,8 +121,9 @@ def encode_view(p, config, image):
 
 def encode_text(p, mission, mask):
     """The state of the GRU, changed by each word as far as it is bright."""
-    h = torch.zeros(1, SIZES["text_size"])
-    bias = torch.cat([torch.zeros(2 * SIZES["text_size"]), p["text.candidate_bias"]])
+    size = len(p["text.candidate_bias"])
+    h = torch.zeros(1, size)
+    bias = torch.cat([torch.zeros(2 * size), p["text.candidate_bias"]])
     for word, bright in zip(F.embedding(torch.tensor(mission), p["words"].T), mask):
         read = torch.gru_cell(word[None], h, p["text.input_weight"], p["text.hidden_weight"],
                               p["text.bias"], bias)
@@ -129,19 +132,21 @@ def encode_text(p, mission, mask):
 
 
 def look_of_objects(p, config):
-    """O~ of each object [C, 18]"""
-    return torch.cat([encode_view(p, config, [code] * VIEW * VIEW)[:, :1] for code in OBJECTS], dim=1)
+    """O~ of each object [C, objects]"""
+    return torch.cat([encode_view(p, config, [code] * VIEW * VIEW)[:, :1]
+                      for code in config.get("objects", OBJECTS)], dim=1)
 
 
 def effects_of(p, config):
-    """What each word of the vocabulary says of types and of colors, each [3, 6, V]."""
+    """What each word of the vocabulary says of the type and of the color of each object, two of
+    [objects, V]: the mean over the objects that share it, less the mean over all."""
+    objects = config.get("objects", OBJECTS)
     codes = look_of_objects(p, config)
     queries = p["attention.query"] @ p["words"]
     raw = (p["attention.key"] @ codes).T @ queries / math.sqrt(config["key_size"])
-    table = raw.view(3, COLORS, VOCABULARY)
-    everywhere = table.mean((0, 1), keepdim=True)
-    return [(table.mean(1, keepdim=True) - everywhere).expand_as(table),
-            (table.mean(0, keepdim=True) - everywhere).expand_as(table)]
+    alike = [torch.tensor([[float(a[k] == b[k]) for b in objects] for a in objects], dtype=raw.dtype)
+             for k in (0, 1)]
+    return [a @ raw / a.sum(1, keepdim=True) - raw.mean(0) for a in alike]
 
 
 def geometric(start, end, focus):
@@ -149,22 +154,23 @@ def geometric(start, end, focus):
 
 
 def say(p, config):
-    """What each word of the vocabulary says of each object [18, V], and the scores of nowhere [V]."""
+    """What each word of the vocabulary says of each object [objects, V], and the scores of nowhere [V]."""
     types, colors = effects_of(p, config)
     slope = geometric(config["word_choice_start"], config["word_choice"], config["focus"])
     of_type = torch.sigmoid(slope * p["attention.words"][0])
-    said = (of_type * types + (1 - of_type) * colors).reshape(-1, VOCABULARY)
+    said = of_type * types + (1 - of_type) * colors
     return said, config["nowhere"] * said.max(0).values
 
 
 def look(p, config, image, view, mission):
     """Log maps [words, 50] over cells and nowhere, and what the silent word says of them [50]."""
+    objects = config.get("objects", OBJECTS)
     said, nowhere = say(p, config)
     scores = torch.zeros(len(mission), VIEW * VIEW + 1)
     for i, word in enumerate(mission):
         for cell, code in enumerate(image):
-            if tuple(code) in OBJECTS:
-                scores[i, cell] = said[OBJECTS.index(tuple(code)), word]
+            if tuple(code) in objects:
+                scores[i, cell] = said[objects.index(tuple(code)), word]
         scores[i, -1] = nowhere[word]
     beta = geometric(config["sharpness_start"], config["sharpness"], config["focus"])
     silent = p["attention.silent"] @ torch.cat([view, look_of_objects(p, config).mean(1, True)], dim=1)
@@ -238,21 +244,32 @@ def head(p, name, x):
     return F.linear(x, p[f"{name}.output.weight"], p[f"{name}.output.bias"])
 
 
-def run_lane(p, config, frames, h, c):
+def run_lane(p, config, frames, h, c, missions=MISSIONS):
     """Frames of one lane in turn, from the memory (h, c)."""
     for frame in frames:
         h, c = h * frame["keep"], c * frame["keep"]
-        mission = MISSIONS[frame["mission"]]
+        mission = missions[frame["mission"]]
+        told = torch.zeros_like(p["memory.bias"])  # of what is done, past the attention
+        if config.get("completion_input"):
+            told = p["completion"] @ torch.tensor(frame["completion"], dtype=told.dtype)
         view = encode_view(p, config, frame["image"])
         filtered, seen = filter_view(p, config, frame["image"], view, mission, frame["completion"])
         h, c = (s[0] for s in torch.lstm_cell(
             filtered.T.reshape(1, -1), (h[None], c[None]), p["memory.input_weight"],
-            p["memory.hidden_weight"], p["memory.bias"], torch.zeros_like(p["memory.bias"])))
+            p["memory.hidden_weight"], p["memory.bias"], told))
         masked = config["task_attention"] and config["task_reader"] == "scan"
         mask = seen["alpha"] if masked else torch.ones(len(mission))
         features = torch.cat([h, encode_text(p, mission, mask)])
         yield {"logits": head(p, "actor", features), "value": head(p, "critic", features)[0],
                "h": h, "c": c} | seen
+
+
+def score_price(p, config):
+    """What all that words could say costs."""
+    beta = geometric(config["sharpness_start"], config["sharpness"], config["focus"])
+    price = geometric(config.get("score_cost_start", config["score_cost"]), config["score_cost"],
+                      config["focus"])
+    return price * beta ** 2 / 2 * sum(e.square().sum() for e in effects_of(p, config))
 
 
 def numbers(value):
@@ -290,9 +307,8 @@ def make(name, variant):
         results[b::LANES] = run_lane(p, config, frames[b::LANES], h, c)
     loss = sum((torch.stack([r[key] for r in results]) * torch.tensor(weight)).sum()
                for key, weight in asked.items())
-    if config["score_cost"] > 0:  # start and end are the same
-        beta = geometric(config["sharpness_start"], config["sharpness"], config["focus"])
-        loss = loss + config["score_cost"] / 2 * sum((beta * e).square().sum() for e in effects_of(p, config))
+    if config["score_cost"] > 0:
+        loss = loss + score_price(p, config)
     loss.backward()
     for r in results:
         r.pop("mask_logits", None)

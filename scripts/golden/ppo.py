@@ -21,22 +21,35 @@ def sixteenths(choice, low, high):
     return choice.randint(16 * low, 16 * high) / 16
 
 
+def lane_advantages(reward, value, ended, next_value, discount, decay):
+    """Of one lane; an episode's end cuts the sum over what is to come, be it terminated or truncated."""
+    steps, following = len(reward), value[1:] + [next_value]
+    surprise = [reward[t] + (0 if ended[t] else discount * following[t]) - value[t]
+                for t in range(steps)]
+    end = [next((k for k in range(t, steps) if ended[k]), steps - 1) for t in range(steps)]
+    return [sum((discount * decay) ** (k - t) * surprise[k] for k in range(t, end[t] + 1))
+            for t in range(steps)]
+
+
+def objective(policy, value, action, old_log_prob, advantage, target, clip):
+    """The parts of the loss, means over frames."""
+    log_ratio = policy.log_prob(action) - old_log_prob
+    ratio = log_ratio.exp()
+    return {"policy": -torch.min(ratio * advantage,
+                                 ratio.clamp(1 - clip, 1 + clip) * advantage).mean(),
+            "value": F.mse_loss(value, target), "entropy": policy.entropy().mean(),
+            "divergence": (ratio - 1 - log_ratio).mean(),
+            "clipped": ((ratio - 1).abs() > clip).double().mean()}
+
+
 def advantages(choice):
-    """[lane][step]; an episode's end cuts the sum, be it terminated or truncated."""
+    """[lane][step]"""
     steps, lanes, discount, decay = 12, 3, 0.9375, 0.875
     reward, value = ([[sixteenths(choice, -2, 2) for _ in range(steps)] for _ in range(lanes)]
                      for _ in range(2))
     ended = [[int(choice.random() < 0.2) for _ in range(steps)] for _ in range(lanes)]
     next_value = [sixteenths(choice, -2, 2) for _ in range(lanes)]
-    result = []
-    for r, v, e, last in zip(reward, value, ended, next_value):
-        following = v[1:] + [last]
-        surprise = [r[t] + (0 if e[t] else discount * following[t]) - v[t] for t in range(steps)]
-        result.append([])
-        for t in range(steps):
-            end = next((k for k in range(t, steps) if e[k]), steps - 1)
-            result[-1].append(sum((discount * decay) ** (k - t) * surprise[k]
-                                  for k in range(t, end + 1)))
+    result = [lane_advantages(*lane, discount, decay) for lane in zip(reward, value, ended, next_value)]
     return {"discount": discount, "lambda": decay, "reward": reward, "value": value, "ended": ended,
             "next_value": next_value, "advantage": result}
 
@@ -53,13 +66,7 @@ def ppo_loss(choice):
         [choice.gauss(0, 0.3) for _ in range(frames)])
     advantage = torch.tensor([choice.gauss(0, 1) for _ in range(frames)])
     target = torch.tensor([choice.gauss(0, 1) for _ in range(frames)])
-    log_ratio = policy.log_prob(action) - old_log_prob
-    ratio = log_ratio.exp()
-    parts = {"policy": -torch.min(ratio * advantage,
-                                  ratio.clamp(1 - clip, 1 + clip) * advantage).mean(),
-             "value": F.mse_loss(value, target), "entropy": policy.entropy().mean(),
-             "divergence": (ratio - 1 - log_ratio).mean(),
-             "clipped": ((ratio - 1).abs() > clip).double().mean()}
+    parts = objective(policy, value, action, old_log_prob, advantage, target, clip)
     loss = (parts["policy"] + value_coefficient * parts["value"]
             - entropy_coefficient * parts["entropy"])
     loss.backward()

@@ -18,13 +18,14 @@ AdvantageScale advantage_scale(const Rollout& rollout, std::span<const int> sequ
   const double frames = static_cast<double>(sequences.size()) * rollout.chunk;
   const double mean = sum / frames;
   const double deviation = std::sqrt(std::max(0.0, squares / frames - mean * mean));
-  return {static_cast<float>(mean), static_cast<float>(1 / std::max({deviation, floor, 1e-8}))};
+  return {mean, 1 / std::max({deviation, floor, 1e-8})};
 }
 
-void Batch::gather(const model::Config& config, const Rollout& r, std::span<const int> sequences,
-                   const AdvantageScale& scale) {
+template <std::floating_point S>
+void BasicBatch<S>::gather(const model::Config& config, const Rollout& r,
+                           std::span<const int> sequences, const AdvantageScale& scale) {
   const nn::SequenceShape shape{r.chunk, static_cast<Index>(sequences.size())};
-  model::Frames<float>& x = frames;
+  model::Frames<S>& x = frames;
   if (x.shape != shape) {
     x.resize(config, shape);
     const auto n = static_cast<std::size_t>(shape.columns());
@@ -35,8 +36,8 @@ void Batch::gather(const model::Config& config, const Rollout& r, std::span<cons
   missions.clear();
   for (Index b = 0; b < shape.batch; ++b) {
     const int sequence = sequences[static_cast<std::size_t>(b)];
-    x.start.h.col(b) = r.start_h.col(sequence);
-    x.start.c.col(b) = r.start_c.col(sequence);
+    x.start.h.col(b) = r.start_h.col(sequence).template cast<S>();
+    x.start.c.col(b) = r.start_c.col(sequence).template cast<S>();
     int known = -1, local = 0;  // a mission lasts for an episode: look it up when it changes
     for (Index t = 0; t < shape.steps; ++t) {
       const Index to = shape.column(t, b), column = r.column(sequence, t);
@@ -55,15 +56,18 @@ void Batch::gather(const model::Config& config, const Rollout& r, std::span<cons
       }
       x.mission_of[i] = local;
       x.cells.col(to) = r.cells.col(column);
-      x.keep(0, to) = r.keep(0, column);
-      x.completion.col(to) = r.completion.col(column);
+      x.keep(0, to) = static_cast<S>(r.keep(0, column));
+      x.completion.col(to) = r.completion.col(column).template cast<S>();
       action[i] = r.action[from];
       bright[i] = r.bright[from];
-      log_prob[i] = r.log_prob[from];
-      advantage[i] = scale(r.advantage[from]);
-      value_target[i] = r.advantage[from] + r.value[from];
+      log_prob[i] = static_cast<S>(r.log_prob[from]);
+      advantage[i] = static_cast<S>(scale(static_cast<double>(r.advantage[from])));
+      value_target[i] = static_cast<S>(r.advantage[from]) + static_cast<S>(r.value[from]);
     }
   }
 }
+
+template struct BasicBatch<float>;
+template struct BasicBatch<double>;
 
 }  // namespace wordgaze::training

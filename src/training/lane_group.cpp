@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "wordgaze/model/task_mask.hpp"
+#include "wordgaze/training/divergence.hpp"
 
 namespace wordgaze::training {
 namespace {
@@ -75,10 +78,20 @@ void LaneGroup::collect(const Curriculum& curriculum, Rollout& rollout,
       step_lane(b, base + b, decisions[static_cast<std::size_t>(b)], curriculum, rollout, observer);
     }
   }
+  check_memories();
   value_cuts(rollout);
   for (int b = 0; b < lanes; ++b) observe(b);
   const auto values = policy_->values();
   std::copy(values.begin(), values.end(), rollout.next_value.begin() + first_);
+}
+
+/// 0 x NaN is NaN: a memory that is not finite once would outlive every episode's end.
+void LaneGroup::check_memories() const {
+  for (int b = 0; b < policy_->lanes(); ++b) {
+    const auto& [h, c] = policy_->frames().start;
+    if (h.col(b).allFinite() && c.col(b).allFinite()) continue;
+    fail_diverged("the memory of lane " + std::to_string(first_ + b) + " is not finite");
+  }
 }
 
 void LaneGroup::observe(int b) {
@@ -148,6 +161,10 @@ LaneGroup::LaneState LaneGroup::state(int b) const {
 }
 
 void LaneGroup::restore(int b, const LaneState& state) {
+  if (!state.memory.h.allFinite() || !state.memory.c.allFinite()) {
+    throw std::runtime_error("the memory of lane " + std::to_string(first_ + b) +
+                             " ('lanes.h', 'lanes.c') is not finite");
+  }
   Lane& lane = lanes_[static_cast<std::size_t>(b)];
   lane.episode.environment.restore(state.environment);
   lane.rng = core::Rng(state.rng);

@@ -8,18 +8,19 @@
 namespace wordgaze::training {
 namespace {
 
-class PpoTerm final : public Loss {
+template <std::floating_point S>
+class PpoTerm final : public BasicLoss<S> {
  public:
   explicit PpoTerm(const PpoConfig& ppo) : ppo_(ppo) {}
 
   std::span<const std::string_view> reports() const override { return kReports; }
 
-  void add(const Batch& batch, const model::Outputs<float>& outputs, const Rates& rates,
-           float scale, model::Outputs<float>& gradient, std::span<double> sums) const override {
-    const PpoLoss<float> loss{.clip = static_cast<float>(ppo_.clip),
-                              .value_coefficient = static_cast<float>(ppo_.value_coefficient),
-                              .entropy_coefficient = static_cast<float>(rates.entropy_coefficient)};
-    PpoLoss<float>::Sums sum;
+  void add(const BasicBatch<S>& batch, const model::Outputs<S>& outputs, const Rates& rates,
+           S scale, model::Outputs<S>& gradient, std::span<double> sums) const override {
+    const PpoLoss<S> loss{.clip = static_cast<S>(ppo_.clip),
+                          .value_coefficient = static_cast<S>(ppo_.value_coefficient),
+                          .entropy_coefficient = static_cast<S>(rates.entropy_coefficient)};
+    typename PpoLoss<S>::Sums sum;
     for (Index n = 0; n < outputs.logits.cols(); ++n) {
       const auto i = static_cast<std::size_t>(n);
       loss.add({.action = batch.action[i],
@@ -39,14 +40,15 @@ class PpoTerm final : public Loss {
   PpoConfig ppo_;
 };
 
-class MaskTerm final : public Loss {
+template <std::floating_point S>
+class MaskTerm final : public BasicLoss<S> {
  public:
   explicit MaskTerm(double coefficient) : coefficient_(coefficient) {}
 
   std::span<const std::string_view> reports() const override { return kReports; }
 
-  void add(const Batch& batch, const model::Outputs<float>& outputs, const Rates&, float scale,
-           model::Outputs<float>& gradient, std::span<double> sums) const override {
+  void add(const BasicBatch<S>& batch, const model::Outputs<S>& outputs, const Rates&, S scale,
+           model::Outputs<S>& gradient, std::span<double> sums) const override {
     for (Index n = 0; n < outputs.mask.cols(); ++n) {
       sums[0] += mask_loss(batch.mission(n), batch.bright[static_cast<std::size_t>(n)],
                            outputs.mask.col(n), scale * coefficient_, gradient.mask.col(n));
@@ -60,11 +62,14 @@ class MaskTerm final : public Loss {
 
 }  // namespace
 
-Losses make_losses(const model::Config& model, const PpoConfig& ppo) {
-  Losses losses;
-  losses.push_back(std::make_unique<PpoTerm>(ppo));
-  if (model.task_attention) losses.push_back(std::make_unique<MaskTerm>(ppo.mask_coefficient));
+template <std::floating_point S>
+BasicLosses<S> make_losses(const model::Config& model, const PpoConfig& ppo) {
+  BasicLosses<S> losses;
+  losses.push_back(std::make_unique<PpoTerm<S>>(ppo));
+  if (model.task_attention) losses.push_back(std::make_unique<MaskTerm<S>>(ppo.mask_coefficient));
   return losses;
 }
+template BasicLosses<float> make_losses(const model::Config&, const PpoConfig&);
+template BasicLosses<double> make_losses(const model::Config&, const PpoConfig&);
 
 }  // namespace wordgaze::training

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "model/agent_fixture.hpp"
-#include "support/golden.hpp"
+#include "model/golden_agent.hpp"
 
 /// The agent against PyTorch, which computes it with dense cells and differentiates it by itself
 /// (scripts/golden/agent.py).
@@ -12,35 +12,6 @@ using test::Json;
 using test::relative_error;
 
 constexpr double kTolerance = 1e-9;
-
-Config config_of(const Json& j) {
-  Config c;
-  c.attention = j.at("attention");
-  c.task_attention = j.at("task_attention");
-  c.encoder = j.at("encoder") == "3x3" ? Encoder::patch : Encoder::cell;
-  c.channels = j.at("channels");
-  c.word_size = j.at("word_size");
-  c.key_size = j.at("key_size");
-  c.memory_size = j.at("memory_size");
-  c.text_size = j.at("text_size");
-  c.head_size = j.at("head_size");
-  c.task_size = j.at("task_size");
-  c.task_words = j.at("task_words");
-  c.sub_tasks = j.at("clauses");
-  c.entropy_base = j.at("entropy_base");
-  c.gaze_exponent = j.at("gaze_exponent");
-  c.gaze_floor = j.at("gaze_floor");
-  c.encoder_leak = j.at("encoder_leak");
-  c.gaze = j.at("gaze") == "product" ? Gaze::product : Gaze::sum;
-  c.task_reader = j.at("task_reader") == "scan" ? Reader::scan : Reader::sum;
-  c.sharpness_start = j.at("sharpness_start");
-  c.sharpness = j.at("sharpness");
-  c.nowhere = j.at("nowhere");
-  c.word_choice_start = j.at("word_choice_start");
-  c.word_choice = j.at("word_choice");
-  c.score_cost_start = c.score_cost = j.at("score_cost");
-  return c;
-}
 
 /// The agent of a golden file, with its inputs and its weights.
 struct Reference {
@@ -54,14 +25,9 @@ struct Reference {
 
   explicit Reference(const std::string& name)
       : json(test::golden("model/" + name + ".json")),
-        agent{config_of(json.at("config")), CellAlphabet::one_room()},
+        agent{test::config_of(json.at("config")), CellAlphabet::one_room()},
         weights(agent.make_weights()) {
-    nn::for_each_parameter(
-        [&](const nn::Path& path, auto& leaf) {
-          if (leaf.size() == 0) return;
-          leaf = test::matrix(json.at("parameters").at(path.str()), leaf.rows(), leaf.cols());
-        },
-        weights.params);
+    test::read_parameters(json.at("parameters"), weights.params);
     frames.resize(agent.config, {json.at("steps"), json.at("lanes")});
     for (Index n = 0; n < frames.shape.columns(); ++n) read_frame(n);
     for (Index b = 0; b < frames.shape.batch; ++b) {

@@ -21,7 +21,8 @@ class LaneGroup {
             const babyai::LevelSpec& level, int first);
 
   /// Acts for a whole rollout, with the weights as they now are, and fills its columns of these
-  /// lanes. With an observer, episodes of the first lane that it wants are reported.
+  /// lanes. With an observer, episodes of the first lane that it wants are reported. Throws
+  /// std::runtime_error where a memory is no longer finite.
   void collect(const Curriculum& curriculum, Rollout& rollout, policy::Observer* observer);
 
   /// What ended, and where M looked, during the last collect().
@@ -39,6 +40,8 @@ class LaneGroup {
     policy::Policy::Memory memory;
   };
   LaneState state(int lane) const;
+  /// Throws std::runtime_error for what does not fit this lane, and for a memory that is not
+  /// finite.
   void restore(int lane, const LaneState& state);
 
  private:
@@ -53,6 +56,7 @@ class LaneGroup {
   void observe(int lane);
   void step_lane(int lane, Index column, const policy::Decision& decision,
                  const Curriculum& curriculum, Rollout& rollout, policy::Observer* observer);
+  void check_memories() const;
   void value_cuts(Rollout& rollout);
 
   const PpoConfig* ppo_;

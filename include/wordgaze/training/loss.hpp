@@ -1,4 +1,5 @@
 #pragma once
+#include <concepts>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -16,23 +17,30 @@ struct Rates {
 };
 
 /// A term of what is minimized. The learner holds a list of them and adds up their gradients.
-class Loss {
+template <std::floating_point S>
+class BasicLoss {
  public:
-  virtual ~Loss() = default;
+  virtual ~BasicLoss() = default;
 
   /// What it reports: columns of metrics.csv, as means over the frames of an update.
   virtual std::span<const std::string_view> reports() const = 0;
 
   /// Adds `scale` times the gradient of the sum over all frames of a batch to `gradient`, and what
   /// it reports, summed over the frames, to `sums`. Called by several workers at the same time.
-  virtual void add(const Batch& batch, const model::Outputs<float>& outputs, const Rates& rates,
-                   float scale, model::Outputs<float>& gradient, std::span<double> sums) const = 0;
+  virtual void add(const BasicBatch<S>& batch, const model::Outputs<S>& outputs, const Rates& rates,
+                   S scale, model::Outputs<S>& gradient, std::span<double> sums) const = 0;
 };
+using Loss = BasicLoss<float>;
 
-using Losses = std::vector<std::unique_ptr<Loss>>;
+template <std::floating_point S>
+using BasicLosses = std::vector<std::unique_ptr<BasicLoss<S>>>;
+using Losses = BasicLosses<float>;
 
 /// The terms that a configuration asks for: the clipped objective with value loss and entropy
 /// bonus, and L_TA where there is a Task Attention Module.
-Losses make_losses(const model::Config& model, const PpoConfig& ppo);
+template <std::floating_point S = float>
+BasicLosses<S> make_losses(const model::Config& model, const PpoConfig& ppo);
+extern template BasicLosses<float> make_losses(const model::Config&, const PpoConfig&);
+extern template BasicLosses<double> make_losses(const model::Config&, const PpoConfig&);
 
 }  // namespace wordgaze::training

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "wordgaze/babyai/sentence.hpp"
@@ -42,5 +43,9 @@ struct Rollout {
                    [static_cast<std::size_t>(mission_of[static_cast<std::size_t>(column)])];
   }
 };
+
+/// Names the first number that is not finite and that something is learned from, as "the value of
+/// step 3 in lane 5"; empty where all are finite.
+std::string first_not_finite(const Rollout& rollout);
 
 }  // namespace wordgaze::training

@@ -85,8 +85,8 @@ class BasicTrainer {
         rng_(run_rng(2)),
         curriculum_(config.curriculum),
         rollout_(config.model, config.ppo),
-        learner_(agent_, config_.ppo, make_losses(config.model, config.ppo), fresh_params(),
-                 team_) {
+        learner_(agent_, config_.ppo, make_losses<typename Agent::Scalar>(config.model, config.ppo),
+                 fresh_params(), team_) {
     for (int w = 0; w < team_.size(); ++w) {
       const auto [from, to] = team_.share(config.ppo.lanes, w);
       groups_.push_back(std::make_unique<LaneGroup>(policy(to - from), config_, level_, from));
@@ -110,7 +110,8 @@ class BasicTrainer {
   void restore(State state);
 
   /// One update; returns its row of metrics. With an observer, episodes of the first lane that it
-  /// wants are reported, and the metrics.
+  /// wants are reported, and the metrics. Throws std::runtime_error where training has diverged:
+  /// then the state is one of no update, and not to be saved.
   Metrics update(policy::Observer* observer = nullptr);
   /// The columns of that row.
   std::vector<std::string> columns() const;
