@@ -29,10 +29,10 @@ inline std::string run_name(const std::filesystem::path& folder, std::int64_t se
 class Listeners final : public policy::Observer {
  public:
   struct Options {
-    std::string log, url;    ///< empty: not wanted
-    std::string run_id;      ///< joins the messages of one run
-    std::string checkpoint;  ///< file of the weights; empty while training
-    int every = 1;           ///< of the episodes, each `every`-th
+    std::string log, url;                ///< empty: not wanted
+    std::string run_id;                  ///< joins the messages of one run
+    std::string checkpoint;              ///< file of the weights; empty while training
+    int every = 1;                       ///< of the episodes, each `every`-th
     std::optional<std::int64_t> update;  ///< go on with an existing log from this update on
   };
 
@@ -59,8 +59,8 @@ class Listeners final : public policy::Observer {
       listeners_.push_back(std::move(live));
     }
     if (!options.log.empty()) {
-      auto log = std::make_unique<lcm_io::LogWriter>(options.log, origin, options.every,
-                                                     options.update);
+      auto log =
+          std::make_unique<lcm_io::LogWriter>(options.log, origin, options.every, options.update);
       warn(log->gap());
       log_ = log.get();
       listeners_.push_back(std::move(log));

@@ -92,8 +92,7 @@ std::size_t EventLog::read(std::uint64_t place, std::span<std::uint8_t> bytes) c
   const bool inside = place >= window_at_ && place + wanted <= window_at_ + window_.size();
   if (!inside) {
     window_.resize(std::max<std::size_t>(kWindow, wanted));
-    const ssize_t count =
-        ::pread(fd_, window_.data(), window_.size(), static_cast<off_t>(place));
+    const ssize_t count = ::pread(fd_, window_.data(), window_.size(), static_cast<off_t>(place));
     window_.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
     window_at_ = place;
   }

@@ -63,10 +63,10 @@ Known known_part(const EventLog& log, const std::string& run_id, std::int64_t up
       if (!past) known = {place, next_number, metrics->update, open};
     }
   }
-  if (place == 0 && log.size() > 0 && !log.is_torn_at(0)) refuse(log, "holds no event of LCM");
-  if (known.update != update && log.has_event_behind(place)) {
+  if ((place == 0 || known.update != update) && log.has_event_behind(place)) {
     refuse(log, fmt::format("is damaged at byte {}, and more events follow", place));
   }
+  if (place == 0 && !log.is_torn_at(0)) refuse(log, "holds no event of LCM");
   return known;
 }
 
@@ -96,9 +96,10 @@ LogWriter::LogWriter(const std::filesystem::path& path, Origin origin, int every
   log_->next_number = known.next_number;
   if (known.open_episode) is_open(*known.open_episode);
   if (known.update < *update) {
-    log_->gap = fmt::format("the LCM log '{}' ends with update {}, the checkpoint is of update {}; "
-                            "what lies between is missing in the log",
-                            path.string(), known.update, *update);
+    log_->gap = fmt::format(
+        "the LCM log '{}' ends with update {}, the checkpoint is of update {}; "
+        "what lies between is missing in the log",
+        path.string(), known.update, *update);
   }
 }
 

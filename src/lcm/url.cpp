@@ -41,10 +41,11 @@ std::string_view take(std::string_view& text, char separator) {
 }  // namespace
 
 std::string multicast_group(std::string_view url) {
-  require(!url.starts_with("tcpq://"),
-          "the LCM URL '{}': tcpq is not offered, for its sender waits for its server and complains "
-          "of each message without one; give udpm://[group[:port]][?ttl=n], or write a log",
-          url);
+  require(
+      !url.starts_with("tcpq://"),
+      "the LCM URL '{}': tcpq is not offered, for its sender waits for its server and complains "
+      "of each message without one; give udpm://[group[:port]][?ttl=n], or write a log",
+      url);
   require(url.starts_with(kUdpm), "the LCM URL '{}': expected udpm://[group[:port]][?ttl=n]", url);
   std::string_view rest = url.substr(kUdpm.size());
   const bool has_parameters = rest.find('?') != rest.npos;
@@ -71,9 +72,9 @@ std::string multicast_group(std::string_view url) {
     seen.push_back(name);
     require(name != "ttl" || is_number(value, 0, 255),
             "the LCM URL '{}': expected a ttl from 0 (this machine) to 255; came '{}'", url, value);
-    require(name != "recv_buf_size" ||
-                is_number(value, 1, std::numeric_limits<std::int32_t>::max()),
-            "the LCM URL '{}': expected recv_buf_size in bytes, from 1 on; came '{}'", url, value);
+    require(
+        name != "recv_buf_size" || is_number(value, 1, std::numeric_limits<std::int32_t>::max()),
+        "the LCM URL '{}': expected recv_buf_size in bytes, from 1 on; came '{}'", url, value);
     if (last) break;
   }
   return std::string(usual ? kUsualGroup : group);

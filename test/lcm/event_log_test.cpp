@@ -43,9 +43,9 @@ std::string two_events() {
 TEST(EventLog, WritesWhatLcmAndItselfRead) {
   const TemporaryFolder folder;
   write(folder / "a", two_events());
-  EXPECT_EQ(events_of(folder / "a"),
-            (std::vector<LogEvent>{{5, -1, "FIRST", kData},
-                                   {6, 1'700'000'000'000'000, "SECOND", {}}}));
+  EXPECT_EQ(
+      events_of(folder / "a"),
+      (std::vector<LogEvent>{{5, -1, "FIRST", kData}, {6, 1'700'000'000'000'000, "SECOND", {}}}));
   const EventLog log(folder / "a");
   const auto [events, end] = read(log);
   ASSERT_EQ(events.size(), 2u);
@@ -100,8 +100,8 @@ TEST(EventLog, BelievesNoLength) {
   };
   using namespace std::string_view_literals;
   // Channel and data: negative, far too large, empty, past the end of the file, too short.
-  for (const auto length : {"\xff\xff\xff\xff"sv, "\x7f\xff\xff\xff"sv, "\0\0\0\0"sv, "\0\0\0\x40"sv,
-                            "\0\0\0\x3f"sv, "\0\0\0\x04"sv}) {
+  for (const auto length : {"\xff\xff\xff\xff"sv, "\x7f\xff\xff\xff"sv, "\0\0\0\0"sv,
+                            "\0\0\0\x40"sv, "\0\0\0\x3f"sv, "\0\0\0\x04"sv}) {
     EXPECT_EQ(spoiled(20, length), std::pair(false, true));
   }
   for (const auto length : {"\xff\xff\xff\xff"sv, "\x7f\xff\xff\xff"sv, "\x80\0\0\0"sv,

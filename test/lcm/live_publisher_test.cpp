@@ -79,8 +79,9 @@ TEST(LivePublisher, RefusesWhatIsNoUrlOfLcm) {
   EXPECT_TRUE(contains(
       message_of<std::invalid_argument>([] { LivePublisher("http://example.org", Origin{}); }),
       "'http://example.org': expected udpm://"));
-  EXPECT_TRUE(contains(message_of<std::invalid_argument>([] { LivePublisher("memq://", Origin{}); }),
-                       "expected udpm://"));
+  EXPECT_TRUE(
+      contains(message_of<std::invalid_argument>([] { LivePublisher("memq://", Origin{}); }),
+               "expected udpm://"));
 }
 
 // A network namespace of its own has no routes at all; only root may make one.

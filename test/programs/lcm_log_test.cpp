@@ -121,12 +121,14 @@ TEST_F(LcmLog, SaysWhatTheLogLacks) {
 
 // The last event tells of the checkpoint's own update.
 TEST_F(LcmLog, GoesOnBehindATornEvent) {
-  ASSERT_TRUE(succeeded(run("train --config tiny.toml --out a --lcm-log a.lcmlog --set "
-                            "log_episodes=1 && cp -r a b && cp a.lcmlog b.lcmlog")));
+  ASSERT_TRUE(
+      succeeded(run("train --config tiny.toml --out a --lcm-log a.lcmlog --set "
+                    "log_episodes=1 && cp -r a b && cp a.lcmlog b.lcmlog")));
   for (const int bytes : {1, 4, 30, 200, 400}) {
     run(fmt::format("rm -r a; cp -r b a; cp b.lcmlog a.lcmlog; truncate -s -{} a.lcmlog", bytes));
-    ASSERT_TRUE(succeeded(run("train --config tiny.toml --out a --lcm-log a.lcmlog --set "
-                              "log_episodes=1 --resume --frames 256")));
+    ASSERT_TRUE(
+        succeeded(run("train --config tiny.toml --out a --lcm-log a.lcmlog --set "
+                      "log_episodes=1 --resume --frames 256")));
     const auto after = events("a.lcmlog");
     expect_whole("a.lcmlog");
     for (std::size_t i = 0; i < after.size(); ++i) {
@@ -152,7 +154,8 @@ TEST_F(LcmLog, IsNeverGarbageThatWasAppendedTo) {
   EXPECT_TRUE(
       refused(run("train --config tiny.toml --out b --resume --frames 256 --lcm-log a.lcmlog"),
               "'a.lcmlog'", "of run 'a-1', this one is 'b-1'"));
-  EXPECT_TRUE(refused(run("cp a/checkpoint.safetensors w; eval --checkpoint w --lcm-log w"), "'w'"));
+  EXPECT_TRUE(
+      refused(run("cp a/checkpoint.safetensors w; eval --checkpoint w --lcm-log w"), "'w'"));
   EXPECT_TRUE(succeeded(run("cmp a/checkpoint.safetensors w")));
 }
 
