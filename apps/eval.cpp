@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -59,9 +60,10 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_flag("--transparency", a.transparency,
                "measure where the agent looks and whether that decides (docs/metrics.md)");
   app.add_option("--json", a.json, "file for the table as JSON");
-  app.add_option("--pictures", a.pictures, "folder for pictures of the attention (PNG)");
-  app.add_option("--lcm-log", a.listeners.log, "LCM log of every step");
-  app.add_option("--lcm-url", a.listeners.url, "publish the same live, as udpm://");
+  app.add_option("--pictures", a.pictures,
+                 "folder for pictures (PNG) of the attention in the first 6 episodes of the first "
+                 "setting, for each policy; pictures of an earlier evaluation there are removed");
+  apps::Listeners::add_options(app, a.listeners, "LCM log of every step");
 }
 
 /// The level with other room sizes and numbers of objects.
@@ -154,23 +156,36 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
 
   // Every level is made before the first episode: a typing error should not cost an hour.
   const auto levels = settings(a, babyai::find_level(a.env.empty() ? config.env : a.env));
-  a.listeners.run_id = "eval";
+  if (!a.pictures.empty()) std::filesystem::create_directories(a.pictures);
   a.listeners.checkpoint = a.checkpoint;
   apps::Listeners listeners(a.listeners);
+  if (!a.pictures.empty()) apps::remove_old_pictures(a.pictures);
+  int evaluations = 0, pictures = 0;
   Team team(threads(a));
   for (const auto& level : levels) {
     const policy::Agent agent(config.model, policy::alphabet_of(level));
     const auto weights = agent.make_weights(trained.weights.params);
     for (const bool greedy : {false, true}) {
       if (greedy ? !a.greedy : !a.sample) continue;
-      const Evaluation evaluation{
-          .level = level, .episodes = a.episodes, .seed = a.seed, .greedy = greedy};
+      const Evaluation evaluation{.level = level,
+                                  .episodes = a.episodes,
+                                  .seed = a.seed,
+                                  .greedy = greedy,
+                                  .first = std::int64_t{evaluations} * a.episodes};
       const char* policy = greedy ? "greedy" : "sampled";
+      listeners.on_run(fmt::format("eval-{}-{}", ++evaluations, policy));
       std::optional<evaluation::Transparency> transparency;
       if (a.transparency) transparency.emplace(config.model, config.ppo.mask_truth);
-      const auto r = evaluation::evaluate(
-          evaluation::policy_factory(agent, weights), evaluation, team,
-          {.episodes = listeners.observer(), .decisions = transparency ? &*transparency : nullptr});
+      evaluation::Observers observers{.episodes = listeners.observer(),
+                                      .decisions = transparency ? &*transparency : nullptr};
+      std::optional<apps::Painter> painter;
+      if (!a.pictures.empty() && &level == &levels.front()) {
+        painter.emplace(a.pictures, policy, evaluation.first, observers);
+        observers = {.episodes = &*painter, .decisions = &*painter};
+      }
+      const auto r = evaluation::evaluate(evaluation::policy_factory(agent, weights), evaluation,
+                                          team, observers);
+      if (painter) pictures += painter->pictures();
       print_row(evaluation, policy, r);
       print_joins(r.breakdown);
       report["settings"].push_back(record(evaluation, policy, r));
@@ -181,11 +196,7 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
       std::fflush(stdout);
     }
   }
-  if (!a.pictures.empty()) {
-    const int count = apps::draw_pictures(config.model, trained.weights.params, levels.front(),
-                                          a.seed, a.pictures);
-    fmt::print("{} pictures in {}\n", count, a.pictures);
-  }
+  if (!a.pictures.empty()) fmt::print("{} pictures in {}\n", pictures, a.pictures);
 }
 
 /// The bot or the random policy, for comparison.

@@ -2,96 +2,117 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <map>
+#include <regex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "wordgaze/draw/decision_figure.hpp"
-#include "wordgaze/evaluation/episode.hpp"
+#include "wordgaze/evaluation/evaluator.hpp"
 #include "wordgaze/evaluation/roles.hpp"
-#include "wordgaze/policy/environment.hpp"
 
 namespace wordgaze::apps {
 
-/// Draws the decisions of an episode that tell most: the first, the one at which a target comes
-/// into view, the one after a sub-task is completed, and the last.
-class Painter final : public policy::Observer {
+/// Removes the pictures of an earlier evaluation from a folder, which would pass for some of this
+/// one, and nothing else.
+inline void remove_old_pictures(const std::filesystem::path& folder) {
+  static const std::regex ours(R"(((sampled|greedy)-)?episode\d{2,}-step\d{3,}\.png)");
+  std::vector<std::filesystem::path> old;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const bool is_picture = std::regex_match(entry.path().filename().string(), ours);
+    if (is_picture && entry.is_regular_file()) old.push_back(entry.path());
+  }
+  for (const auto& picture : old) std::filesystem::remove(picture);
+}
+
+/// Draws, of the first episodes of an evaluation, the decisions that tell most: the first, the one
+/// at which a target comes into view, the one after a sub-task is completed, and the last. What it
+/// hears it passes on to the others who are told of the evaluation.
+class Painter final : public policy::Observer, public evaluation::DecisionObserver {
  public:
-  Painter(std::filesystem::path folder, const env::Environment& environment)
-      : folder_(std::move(folder)), environment_(&environment) {}
+  static constexpr int kEpisodes = 6;
+
+  /// Pictures of the episodes from number `first` on go to `folder`, their names begin with
+  /// `policy`.
+  Painter(std::filesystem::path folder, std::string policy, std::int64_t first,
+          const evaluation::Observers& others)
+      : folder_(std::move(folder)), policy_(std::move(policy)), first_(first), others_(others) {}
 
   int pictures() const { return pictures_; }
 
-  /// Before each step: the world and the progress as they are, and whether a target is in view.
-  void before_step(bool target_in_view) {
-    before_ = environment_->world();
-    comes_into_view_ = target_in_view && !seen_;
-    seen_ = seen_ || target_in_view;
-    progress_ = environment_->progress();
-    const auto completion = progress_.completion();
-    completed_ = !std::ranges::equal(completion, completion_);
-    completion_.assign(completion.begin(), completion.end());
+  bool wants_episode(std::int64_t episode) override {
+    const bool others_do = others_.episodes != nullptr && others_.episodes->wants_episode(episode);
+    return draws(episode) || others_do;
   }
-
-  bool wants_episode(std::int64_t) override { return true; }
   void on_begin(const policy::EpisodeBegin& begin) override {
-    episode_ = begin.episode;
-    seen_ = false;
-    const babyai::Progress progress = environment_->progress();
-    const auto completion = progress.completion();
-    completion_.assign(completion.begin(), completion.end());
+    if (others_.episodes != nullptr) others_.episodes->on_begin(begin);
+    if (draws(begin.episode)) scenes_[begin.lane] = {};
+  }
+  void on_decision(const evaluation::DecisionContext& context) override {
+    if (others_.decisions != nullptr) others_.decisions->on_decision(context);
+    const auto drawn = scenes_.find(context.lane);
+    if (drawn != scenes_.end()) drawn->second.look(context);
   }
   void on_step(const policy::StepRecord& step) override {
-    const bool last = step.terminated || step.truncated;
-    if (step.step > 0 && !comes_into_view_ && !completed_ && !last) return;
-    const auto image = draw::decision_figure(step, {.world = before_,
-                                                    .sentence = environment_->sentence(),
-                                                    .progress = progress_,
-                                                    .env_id = environment_->id()});
-    draw::write_png(folder_ / fmt::format("episode{:02}-step{:03}.png", episode_, step.step),
-                    image);
-    ++pictures_;
+    if (others_.episodes != nullptr) others_.episodes->on_step(step);
+    if (draws(step.episode)) draw(step, scenes_.at(step.lane));
+  }
+  void on_end(const policy::EpisodeEnd& end) override {
+    if (others_.episodes != nullptr) others_.episodes->on_end(end);
+    if (draws(end.episode)) scenes_.erase(end.lane);
   }
 
  private:
+  /// What a record does not say: how things stood before a step.
+  struct Scene {
+    grid::World world{};
+    babyai::Sentence sentence{};
+    babyai::Progress progress{};
+    std::string env_id{};
+    std::vector<std::uint8_t> completion{};  // c_t
+    bool begun = false, seen = false, comes_into_view = false, completed = false;
+
+    void look(const evaluation::DecisionContext& context) {
+      const env::Environment& environment = context.environment;
+      world = environment.world();
+      sentence = environment.sentence();
+      progress = environment.progress();
+      env_id = environment.id();
+      const auto roles = evaluation::roles_of(context.observation.image, progress);
+      const bool in_view = std::ranges::find(roles, evaluation::Role::target) != roles.end();
+      comes_into_view = in_view && !seen;
+      seen = seen || in_view;
+      const auto now = progress.completion();
+      completed = std::exchange(begun, true) && !std::ranges::equal(now, completion);
+      completion.assign(now.begin(), now.end());
+    }
+  };
+
+  bool draws(std::int64_t episode) const {
+    return episode >= first_ && episode < first_ + kEpisodes;
+  }
+  void draw(const policy::StepRecord& step, const Scene& scene) {
+    const bool last = step.terminated || step.truncated;
+    if (step.step > 0 && !scene.comes_into_view && !scene.completed && !last) return;
+    const auto image = draw::decision_figure(step, {.world = scene.world,
+                                                    .sentence = scene.sentence,
+                                                    .progress = scene.progress,
+                                                    .env_id = scene.env_id});
+    const auto name =
+        fmt::format("{}-episode{:02}-step{:03}.png", policy_, step.episode - first_, step.step);
+    draw::write_png(folder_ / name, image);
+    ++pictures_;
+  }
+
   std::filesystem::path folder_;
-  const env::Environment* environment_;
-  grid::World before_;
-  babyai::Progress progress_;
-  std::int64_t episode_ = 0;
-  std::vector<std::uint8_t> completion_;  // c_t of the last decision
-  bool seen_ = false, comes_into_view_ = false, completed_ = false;
+  std::string policy_;
+  std::int64_t first_;
+  evaluation::Observers others_;
+  std::map<int, Scene> scenes_;  // by lane, of the episodes that are drawn
   int pictures_ = 0;
 };
-
-/// Pictures of a few episodes of a level into a folder; returns how many.
-inline int draw_pictures(const model::Config& config, const policy::Agent::Params& params,
-                         const babyai::LevelSpec& level, std::uint64_t seed,
-                         const std::filesystem::path& folder) {
-  constexpr int kEpisodes = 6;
-  std::filesystem::create_directories(folder);
-  const policy::Agent agent(config, policy::alphabet_of(level));
-  const auto weights = agent.make_weights(params);
-  policy::NetworkPolicy<policy::Agent> policy(agent, weights);
-  evaluation::Episode episode{env::Environment(level)};
-  Painter painter(folder, episode.environment);
-  for (int number = 0; number < kEpisodes; ++number) {
-    const std::uint64_t world = seed + static_cast<std::uint64_t>(number);
-    episode.environment.reset(world);
-    core::Rng rng(world);
-    episode.begin(policy, 0);
-    episode.report(painter, {.number = number, .lane = 0, .seed = world});
-    for (bool ended = false; !ended;) {
-      episode.observe();
-      policy.observe(0, episode.observation);
-      const auto decision = policy.decide(policy::Sampled{rng})[0];
-      const auto roles =
-          evaluation::roles_of(episode.observation.image, episode.environment.progress());
-      painter.before_step(std::ranges::find(roles, evaluation::Role::target) != roles.end());
-      ended = episode.step(policy, 0, decision).ended();
-    }
-  }
-  return painter.pictures();
-}
 
 }  // namespace wordgaze::apps

@@ -46,8 +46,7 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--set", a.set, "section.key=value, as often as wanted")
       ->allow_extra_args(true)
       ->type_name("KEY=VALUE ...");
-  app.add_option("--lcm-log", a.listeners.log, "LCM log of metrics and of a sample of episodes");
-  app.add_option("--lcm-url", a.listeners.url, "publish the same live, as udpm://");
+  apps::Listeners::add_options(app, a.listeners, "LCM log of metrics and of a sample of episodes");
 }
 
 TrainConfig resolve(const Arguments& a) {
@@ -111,12 +110,12 @@ int run(const Arguments& a) {
   start(trainer, a, checkpoint);
 
   auto options = a.listeners;
-  options.run_id = out.filename().string() + "-" + std::to_string(config.seed);
+  options.run_id = apps::run_name(out, config.seed);
   options.every = config.log_episodes;
-  options.append = a.resume;
+  if (a.resume) options.update = trainer.updates();
+  fs::create_directories(out);  // before the listeners: the log may lie there
   apps::Listeners listeners(options);
 
-  fs::create_directories(out);
   io::clear_temporaries(out, {"config.toml", "metrics.csv", "checkpoint.safetensors"});
   io::write_file(out / "config.toml", io::to_toml(config));
   const auto columns = trainer.columns();

@@ -51,7 +51,7 @@ EvaluationResult run_share(const PolicyFactory& make_policy, const Evaluation& e
     lane.rng = episode_rng(seed);
     lane.episode.begin(*policy, b);
     if (observers.episodes != nullptr) {
-      lane.episode.report(*observers.episodes, {.number = next, .lane = b, .seed = seed});
+      lane.episode.report(*observers.episodes, {.number = e.first + next, .lane = b, .seed = seed});
     }
     ++next;
   };

@@ -23,6 +23,7 @@ MessageObserver::MessageObserver(Origin origin, int every)
 
 void MessageObserver::on_begin(const policy::EpisodeBegin& record) {
   if (!wants_episode(record.episode)) return;
+  if (record.steps > 0 && record.episode == open_episode_) return;
   const std::int64_t now = now_utime();
   send(kEpisodeBeginChannel, encode(to_message(record, origin_, now)), now);
 }

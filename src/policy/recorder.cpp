@@ -13,7 +13,8 @@ bool Recorder::begin(std::int64_t episode, int lane, std::uint64_t seed,
                        .seed = seed,
                        .sentence = env.sentence(),
                        .mission = env.mission(),
-                       .max_steps = env.max_steps()});
+                       .max_steps = env.max_steps(),
+                       .steps = env.step_count()});
   return true;
 }
 

@@ -116,9 +116,9 @@ void LaneGroup::step_lane(int b, Index column, const policy::Decision& decision,
   rollout.bright[n] = model::bright_sub_tasks(ppo_->mask_truth, progress);
   pointing_.add(*policy_, b, episode.observation.image, progress);
 
-  // A stretched view is not what a record would show.
-  const bool begins = episode.environment.step_count() == 0 && lane.stretch == Stretch{};
-  if (b == 0 && observer != nullptr && begins) {
+  const bool begins = episode.environment.step_count() == 0;
+  const bool goes_on = std::exchange(lane.restored, false);
+  if (b == 0 && observer != nullptr && (begins || goes_on) && lane.stretch == Stretch{}) {
     episode.report(*observer, {.number = lane.number, .lane = first_});
   }
   const auto step = episode.step(*policy_, b, decision);
@@ -171,6 +171,7 @@ void LaneGroup::restore(int b, const LaneState& state) {
   lane.helped = state.helped;
   lane.stretch = state.stretch;
   lane.number = state.episode;
+  lane.restored = true;
   lane.episode.begin(*policy_, b);
   lane.episode.set_episode_return(state.episode_return);
   policy_->set_memory(b, state.memory);

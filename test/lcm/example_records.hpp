@@ -30,14 +30,15 @@ struct ExampleRecords {
     }
   }
 
-  policy::EpisodeBegin begin(std::int64_t episode) const {
+  policy::EpisodeBegin begin(std::int64_t episode, int steps = 0) const {
     return {.episode = episode,
             .lane = 3,
             .env_id = "Wordgaze-One-N8-K4-v0",
             .seed = 18446744073709551615u,
             .sentence = sentence,
             .mission = mission,
-            .max_steps = 128};
+            .max_steps = 128,
+            .steps = steps};
   }
   policy::StepRecord step(std::int64_t episode, int number = 0) const {
     return {.episode = episode,
@@ -67,7 +68,9 @@ struct ExampleRecords {
             .success = true,
             .truncated = false};
   }
-  policy::UpdateRecord update() const { return {.update = 7, .frames = 8960, .scalars = scalars}; }
+  policy::UpdateRecord update(std::int64_t number = 7) const {
+    return {.update = number, .frames = 1280 * number, .scalars = scalars};
+  }
 };
 
 }  // namespace wordgaze::lcm_io

@@ -10,6 +10,7 @@ namespace {
 /// Keeps copies of what it is told.
 struct Listener final : Observer {
   std::vector<std::int64_t> wanted{7}, begun, ended;
+  int steps_before = -1;
   struct Step {
     int lane, step, action;
     float value, reward;
@@ -23,7 +24,10 @@ struct Listener final : Observer {
   bool wants_episode(std::int64_t e) override {
     return std::find(wanted.begin(), wanted.end(), e) != wanted.end();
   }
-  void on_begin(const EpisodeBegin& b) override { begun.push_back(b.episode); }
+  void on_begin(const EpisodeBegin& b) override {
+    begun.push_back(b.episode);
+    steps_before = b.steps;
+  }
   void on_step(const StepRecord& s) override {
     const auto sum = [](std::span<const float> v) {
       float total = 0;
@@ -70,6 +74,18 @@ TEST(Recorder, TellsWhatWasSeenDecidedAndWhatCameOfIt) {
   EXPECT_NEAR(step.weight_sum, 1, 1e-5);
   EXPECT_NEAR(step.map_sum, before.sentence.length, 1e-4);
   EXPECT_FALSE(step.terminated || step.truncated);
+  EXPECT_EQ(listener.steps_before, 0);
+}
+
+// A run that goes on from a checkpoint may be in the middle of an episode.
+TEST(Recorder, SaysHowManyStepsWereDoneBefore) {
+  env::Environment environment("Wordgaze-One-N8-K4-v0");
+  environment.reset(1);
+  for (int i = 0; i < 3; ++i) environment.step(grid::Action::left);
+  Listener listener;
+  Recorder recorder(listener);
+  ASSERT_TRUE(recorder.begin(7, 0, 0, environment));
+  EXPECT_EQ(listener.steps_before, 3);
 }
 
 }  // namespace

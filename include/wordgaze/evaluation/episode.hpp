@@ -38,7 +38,8 @@ class Episode {
     int lane = 0;            ///< as reported
     std::uint64_t seed = 0;  ///< 0: the stream goes on
   };
-  /// Before the first step: the episode is reported, if the observer wants it.
+  /// Before the first step, or, where a run goes on in the middle of an episode, before the next:
+  /// the episode is reported, if the observer wants it.
   void report(policy::Observer& observer, const Identity& identity);
 
   void observe() { policy::observe(environment, observation); }

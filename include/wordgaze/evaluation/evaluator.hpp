@@ -19,7 +19,8 @@ struct Evaluation {
   int episodes = 1000;
   std::uint64_t seed = 1'000'000;
   bool greedy = false;
-  int lanes = 64;  ///< of each worker
+  int lanes = 64;          ///< of each worker
+  std::int64_t first = 0;  ///< number of episode 0, as observers are told
 };
 
 struct EvaluationResult {

@@ -1,5 +1,7 @@
 #pragma once
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +14,7 @@ namespace wordgaze::lcm_io {
 class MessageObserver : public policy::Observer {
  public:
   bool wants_episode(std::int64_t episode) final { return episode % every_ == 0; }
+  void on_run(std::string_view run_id) final { origin_.run_id = run_id; }
   void on_begin(const policy::EpisodeBegin& record) final;
   void on_step(const policy::StepRecord& record) final;
   void on_end(const policy::EpisodeEnd& record) final;
@@ -22,6 +25,10 @@ class MessageObserver : public policy::Observer {
   /// positive.
   MessageObserver(Origin origin, int every);
 
+  /// An episode whose begin need not be sent again when a run goes on in the middle of it.
+  void is_open(std::int64_t episode) { open_episode_ = episode; }
+  const std::string& run_id() const { return origin_.run_id; }
+
   /// `utime` is the time of sending in microseconds since 1970.
   virtual void send(std::string_view channel, std::vector<std::uint8_t> bytes,
                     std::int64_t utime) = 0;
@@ -29,6 +36,7 @@ class MessageObserver : public policy::Observer {
  private:
   Origin origin_;
   int every_;
+  std::optional<std::int64_t> open_episode_;
 };
 
 }  // namespace wordgaze::lcm_io

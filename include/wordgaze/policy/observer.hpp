@@ -20,6 +20,7 @@ struct EpisodeBegin {
   const babyai::Sentence& sentence;
   std::string_view mission;
   int max_steps = 0;
+  int steps = 0;  ///< done before; above 0 when a run goes on in the middle of an episode
 };
 
 /// One decision: what was seen, where the agent looked, what it did and what came of it.
@@ -63,6 +64,8 @@ struct UpdateRecord {
 class Observer {
  public:
   virtual ~Observer() = default;
+  /// What follows belongs to this run. An evaluation has one for each setting and policy.
+  virtual void on_run(std::string_view /*run_id*/) {}
   /// Asked once an episode: are the steps of this one wanted? The records cost time to fill.
   virtual bool wants_episode(std::int64_t /*episode*/) { return false; }
   virtual void on_begin(const EpisodeBegin&) {}

@@ -17,6 +17,7 @@ class Recorder {
   Recorder(const Recorder&) = delete;  // its records point into itself
   Recorder& operator=(const Recorder&) = delete;
 
+  /// Before the first step, or, where a run goes on in the middle of an episode, before the next.
   /// False if the observer does not want this episode; then nothing more is to be told of it.
   bool begin(std::int64_t episode, int lane, std::uint64_t seed, const env::Environment& env);
 

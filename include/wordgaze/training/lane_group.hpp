@@ -21,8 +21,9 @@ class LaneGroup {
             const babyai::LevelSpec& level, int first);
 
   /// Acts for a whole rollout, with the weights as they now are, and fills its columns of these
-  /// lanes. With an observer, episodes of the first lane that it wants are reported. Throws
-  /// std::runtime_error where a memory is no longer finite.
+  /// lanes. With an observer, episodes of the first lane that it wants are reported; not those with
+  /// a stretched view, which is not what a record would show. Throws std::runtime_error where a
+  /// memory is no longer finite.
   void collect(const Curriculum& curriculum, Rollout& rollout, policy::Observer* observer);
 
   /// What ended, and where M looked, during the last collect().
@@ -51,6 +52,7 @@ class LaneGroup {
     bool helped = false;
     Stretch stretch{};
     std::int64_t number = 0;  // of the episode
+    bool restored = false;    // and not yet stepped: perhaps in the middle of an episode
   };
   void start_episode(int lane, const Curriculum& curriculum);
   void observe(int lane);
