@@ -1,9 +1,8 @@
 // eval: how well a trained agent does, in the room it knows and in others, and where it looks.
-#include <fmt/core.h>
-
 #include <algorithm>
+#include <array>
 #include <cstdint>
-#include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -14,12 +13,15 @@
 
 #include "command.hpp"
 #include "listeners.hpp"
+#include "output.hpp"
 #include "pictures.hpp"
 #include "transparency_report.hpp"
 #include "wordgaze/babyai/level_edit.hpp"
 #include "wordgaze/bot/policy.hpp"
 #include "wordgaze/evaluation/evaluator.hpp"
 #include "wordgaze/io/file.hpp"
+#include "wordgaze/io/output_check.hpp"
+#include "wordgaze/io/stop_signals.hpp"
 #include "wordgaze/training/checkpoint.hpp"
 
 namespace {
@@ -111,15 +113,15 @@ nlohmann::ordered_json record(const Evaluation& evaluation, const char* policy,
 }
 
 void print_head() {
-  fmt::print("{:<30} {:>7} {:>8} {:>8}  {:<15} {:>7} {:>6} {:>6} {:>6} {:>6}\n", "environment",
-             "policy", "episodes", "success", "95 % interval", "reward", "steps", "wrong",
-             "time up", "hit");
+  apps::say("{:<30} {:>7} {:>8} {:>8}  {:<15} {:>7} {:>6} {:>6} {:>6} {:>6}\n", "environment",
+            "policy", "episodes", "success", "95 % interval", "reward", "steps", "wrong", "time up",
+            "hit");
 }
 
 void print_row(const Evaluation& evaluation, const char* policy,
                const evaluation::EvaluationResult& r) {
   const auto ci = evaluation::wilson_interval(r.successes, r.episodes);
-  fmt::print(
+  apps::say(
       "{:<30} {:>7} {:>8} {:>7.1f}%  [{:>5.1f}, {:>5.1f}] {:>8.3f} {:>6.1f} {:>6} {:>7} "
       "{:>6.3f}\n",
       evaluation.level.id, policy, r.episodes, 100 * r.success_rate(), 100 * ci.low, 100 * ci.high,
@@ -129,11 +131,11 @@ void print_row(const Evaluation& evaluation, const char* policy,
 /// Where missions join clauses: success by the words that do.
 void print_joins(const evaluation::Breakdown& breakdown) {
   if (breakdown.by_join.size() < 2) return;
-  fmt::print("  success by join:");
+  apps::say("  success by join:");
   for (const auto& [join, count] : breakdown.by_join) {
-    fmt::print("  {} {:.1f}% of {}", join, 100 * count.success_rate(), count.episodes);
+    apps::say("  {} {:.1f}% of {}", join, 100 * count.success_rate(), count.episodes);
   }
-  fmt::print("\n");
+  apps::say("\n");
 }
 
 /// A team of as many workers as were asked for.
@@ -150,6 +152,7 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
 
   // Every level is made before the first episode: a typing error should not cost an hour.
   const auto levels = settings(a, babyai::find_level(a.env.empty() ? config.env : a.env));
+  if (!a.pictures.empty()) std::filesystem::create_directories(a.pictures);
   a.listeners.run_id = "eval";
   a.listeners.checkpoint = a.checkpoint;
   apps::Listeners listeners(a.listeners);
@@ -159,8 +162,11 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
     const auto weights = agent.make_weights(trained.weights.params);
     for (const bool greedy : {false, true}) {
       if (greedy ? !a.greedy : !a.sample) continue;
-      const Evaluation evaluation{
-          .level = level, .episodes = a.episodes, .seed = a.seed, .greedy = greedy};
+      const Evaluation evaluation{.level = level,
+                                  .episodes = a.episodes,
+                                  .seed = a.seed,
+                                  .greedy = greedy,
+                                  .between_steps = io::StopSignals::check};
       const char* policy = greedy ? "greedy" : "sampled";
       std::optional<evaluation::Transparency> transparency;
       if (a.transparency) transparency.emplace(config.model, config.ppo.mask_truth);
@@ -174,13 +180,12 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
         apps::print(*transparency);
         report["settings"].back()["transparency"] = apps::to_json(*transparency);
       }
-      std::fflush(stdout);
     }
   }
   if (!a.pictures.empty()) {
     const int count = apps::draw_pictures(config.model, trained.weights.params, levels.front(),
                                           a.seed, a.pictures);
-    fmt::print("{} pictures in {}\n", count, a.pictures);
+    apps::say("{} pictures in {}\n", count, a.pictures);
   }
 }
 
@@ -196,16 +201,22 @@ void evaluate_policy(const Arguments& a, nlohmann::ordered_json& report) {
       a.policy);
   Team team(threads(a));
   for (const auto& level : settings(a, babyai::find_level(a.env))) {
-    const Evaluation evaluation{.level = level, .episodes = a.episodes, .seed = a.seed};
+    const Evaluation evaluation{.level = level,
+                                .episodes = a.episodes,
+                                .seed = a.seed,
+                                .between_steps = io::StopSignals::check};
     const auto r = evaluation::evaluate(bot::policy_maker(a.policy), evaluation, team);
     print_row(evaluation, a.policy.c_str(), r);
     print_joins(r.breakdown);
     report["settings"].push_back(record(evaluation, a.policy.c_str(), r));
-    std::fflush(stdout);
   }
 }
 
 int run(const Arguments& a) {
+  io::check_outputs(
+      std::array{io::NamedPath{"--json", a.json}, io::NamedPath{"--lcm-log", a.listeners.log}},
+      std::array{io::NamedPath{"--checkpoint", a.checkpoint}});
+  const io::StopSignals signals("\neval: stopping; again to stop at once\n");
   nlohmann::ordered_json report{{"checkpoint", a.checkpoint},
                                 {"settings", nlohmann::ordered_json::array()}};
   print_head();
@@ -214,7 +225,11 @@ int run(const Arguments& a) {
   } else {
     evaluate_policy(a, report);
   }
-  if (!a.json.empty()) io::write_file(a.json, report.dump(2) + "\n");
+  if (!a.json.empty()) {
+    // A name that is not UTF-8 is no reason to lose the numbers.
+    constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+    io::write_file(a.json, report.dump(2, ' ', false, kReplace) + "\n");
+  }
   return 0;
 }
 

@@ -20,6 +20,8 @@ struct Evaluation {
   std::uint64_t seed = 1'000'000;
   bool greedy = false;
   int lanes = 64;  ///< of each worker
+  /// Called by all workers now and then, if there is one; what it throws ends the evaluation.
+  std::function<void()> between_steps{};
 };
 
 struct EvaluationResult {
