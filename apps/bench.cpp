@@ -1,7 +1,5 @@
 // bench: how fast the simulator, training and a single decision are on this machine. The last line
 // of the output is one JSON object.
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -13,8 +11,10 @@
 #include <vector>
 
 #include "command.hpp"
+#include "output.hpp"
 #include "wordgaze/env/vector_env.hpp"
 #include "wordgaze/io/config_file.hpp"
+#include "wordgaze/io/stop_signals.hpp"
 #include "wordgaze/policy/environment.hpp"
 #include "wordgaze/training/trainer.hpp"
 
@@ -62,8 +62,10 @@ class Stopwatch {
   double wall_ = now(CLOCK_MONOTONIC), cpu_ = now(CLOCK_PROCESS_CPUTIME_ID);
 };
 
-/// Whether to go on: until a count is reached or, without one, until the time is up.
+/// Whether to go on: until a count is reached or, without one, until the time is up. Throws
+/// io::Stopped after a signal.
 bool unfinished(std::int64_t done, std::int64_t wanted, double seconds, const Stopwatch& watch) {
+  io::StopSignals::check();
   return wanted > 0 ? done < wanted : watch.wall() < seconds;
 }
 
@@ -71,8 +73,8 @@ void report(const char* unit, double count, const Stopwatch& watch, Json& json) 
   json[unit] = count;
   json["cpu_seconds"] = watch.cpu();
   json["wall_seconds"] = watch.wall();
-  fmt::print("{:.4g} {} per CPU second, {:.4g} per second\n", count / watch.cpu(), unit,
-             count / watch.wall());
+  apps::say("{:.4g} {} per CPU second, {:.4g} per second\n", count / watch.cpu(), unit,
+            count / watch.wall());
 }
 
 Json simulate(const Arguments& a) {
@@ -118,7 +120,7 @@ Json reset(const Arguments& a) {
   environment.reset(0);
   const Stopwatch watch;
   std::int64_t resets = 0;
-  for (; watch.wall() < a.seconds; resets += 64) {
+  for (; unfinished(resets, 0, a.seconds, watch); resets += 64) {
     for (int k = 0; k < 64; ++k) environment.reset();
   }
   Json json{{"bench", "reset"}, {"env", a.reset}};
@@ -150,7 +152,7 @@ Json act(const Arguments& a) {
   environment.reset(0);
   std::vector<double> micros;
   const Stopwatch watch;
-  while (watch.wall() < a.seconds) {
+  while (unfinished(0, 0, a.seconds, watch)) {
     const auto begin = std::chrono::steady_clock::now();
     policy::observe(environment, observation);
     agent.observe(0, observation);
@@ -176,11 +178,12 @@ Json act(const Arguments& a) {
 }
 
 int run(const Arguments& a) {
+  const io::StopSignals signals("\nbench: stopping; again to stop at once\n");
   const Json json = !a.sim.empty()     ? simulate(a)
                     : !a.reset.empty() ? reset(a)
                     : !a.train.empty() ? train(a)
                                        : act(a);
-  fmt::print("{}\n", json.dump());
+  apps::say("{}\n", json.dump());
   return 0;
 }
 

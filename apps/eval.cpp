@@ -1,7 +1,6 @@
 // eval: how well a trained agent does, in the room it knows and in others, and where it looks.
-#include <fmt/core.h>
-
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -15,12 +14,15 @@
 
 #include "command.hpp"
 #include "listeners.hpp"
+#include "output.hpp"
 #include "pictures.hpp"
 #include "transparency_report.hpp"
 #include "wordgaze/babyai/level_edit.hpp"
 #include "wordgaze/bot/policy.hpp"
 #include "wordgaze/evaluation/evaluator.hpp"
 #include "wordgaze/io/file.hpp"
+#include "wordgaze/io/output_check.hpp"
+#include "wordgaze/io/stop_signals.hpp"
 #include "wordgaze/training/checkpoint.hpp"
 
 namespace {
@@ -117,15 +119,15 @@ nlohmann::ordered_json record(const Evaluation& evaluation, const char* policy,
 }
 
 void print_head() {
-  fmt::print("{:<30} {:>7} {:>8} {:>8}  {:<15} {:>7} {:>6} {:>6} {:>6} {:>6}\n", "environment",
-             "policy", "episodes", "success", "95 % interval", "reward", "steps", "wrong",
-             "time up", "hit");
+  apps::say("{:<30} {:>7} {:>8} {:>8}  {:<15} {:>7} {:>6} {:>6} {:>6} {:>6}\n", "environment",
+            "policy", "episodes", "success", "95 % interval", "reward", "steps", "wrong", "time up",
+            "hit");
 }
 
 void print_row(const Evaluation& evaluation, const char* policy,
                const evaluation::EvaluationResult& r) {
   const auto ci = evaluation::wilson_interval(r.successes, r.episodes);
-  fmt::print(
+  apps::say(
       "{:<30} {:>7} {:>8} {:>7.1f}%  [{:>5.1f}, {:>5.1f}] {:>8.3f} {:>6.1f} {:>6} {:>7} "
       "{:>6.3f}\n",
       evaluation.level.id, policy, r.episodes, 100 * r.success_rate(), 100 * ci.low, 100 * ci.high,
@@ -135,11 +137,11 @@ void print_row(const Evaluation& evaluation, const char* policy,
 /// Where missions join clauses: success by the words that do.
 void print_joins(const evaluation::Breakdown& breakdown) {
   if (breakdown.by_join.size() < 2) return;
-  fmt::print("  success by join:");
+  apps::say("  success by join:");
   for (const auto& [join, count] : breakdown.by_join) {
-    fmt::print("  {} {:.1f}% of {}", join, 100 * count.success_rate(), count.episodes);
+    apps::say("  {} {:.1f}% of {}", join, 100 * count.success_rate(), count.episodes);
   }
-  fmt::print("\n");
+  apps::say("\n");
 }
 
 /// A team of as many workers as were asked for.
@@ -171,7 +173,8 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
                                   .episodes = a.episodes,
                                   .seed = a.seed,
                                   .greedy = greedy,
-                                  .first = std::int64_t{evaluations} * a.episodes};
+                                   .first = std::int64_t{evaluations} * a.episodes,
+                                   .between_steps = io::StopSignals::check};
       const char* policy = greedy ? "greedy" : "sampled";
       listeners.on_run(fmt::format("eval-{}-{}", ++evaluations, policy));
       std::optional<evaluation::Transparency> transparency;
@@ -193,10 +196,9 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
         apps::print(*transparency);
         report["settings"].back()["transparency"] = apps::to_json(*transparency);
       }
-      std::fflush(stdout);
     }
   }
-  if (!a.pictures.empty()) fmt::print("{} pictures in {}\n", pictures, a.pictures);
+  if (!a.pictures.empty()) apps::say("{} pictures in {}\n", pictures, a.pictures);
 }
 
 /// The bot or the random policy, for comparison.
@@ -211,16 +213,22 @@ void evaluate_policy(const Arguments& a, nlohmann::ordered_json& report) {
       a.policy);
   Team team(threads(a));
   for (const auto& level : settings(a, babyai::find_level(a.env))) {
-    const Evaluation evaluation{.level = level, .episodes = a.episodes, .seed = a.seed};
+    const Evaluation evaluation{.level = level,
+                                .episodes = a.episodes,
+                                .seed = a.seed,
+                                .between_steps = io::StopSignals::check};
     const auto r = evaluation::evaluate(bot::policy_maker(a.policy), evaluation, team);
     print_row(evaluation, a.policy.c_str(), r);
     print_joins(r.breakdown);
     report["settings"].push_back(record(evaluation, a.policy.c_str(), r));
-    std::fflush(stdout);
   }
 }
 
 int run(const Arguments& a) {
+  io::check_outputs(
+      std::array{io::NamedPath{"--json", a.json}, io::NamedPath{"--lcm-log", a.listeners.log}},
+      std::array{io::NamedPath{"--checkpoint", a.checkpoint}});
+  const io::StopSignals signals("\neval: stopping; again to stop at once\n");
   nlohmann::ordered_json report{{"checkpoint", a.checkpoint},
                                 {"settings", nlohmann::ordered_json::array()}};
   print_head();
@@ -229,7 +237,11 @@ int run(const Arguments& a) {
   } else {
     evaluate_policy(a, report);
   }
-  if (!a.json.empty()) io::write_file(a.json, report.dump(2) + "\n");
+  if (!a.json.empty()) {
+    // A name that is not UTF-8 is no reason to lose the numbers.
+    constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+    io::write_file(a.json, report.dump(2, ' ', false, kReplace) + "\n");
+  }
   return 0;
 }
 

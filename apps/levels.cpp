@@ -1,11 +1,12 @@
 // levels: which environments there are.
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <iostream>
 #include <memory>
 #include <string>
 
 #include "command.hpp"
+#include "output.hpp"
 #include "wordgaze/babyai/level.hpp"
 #include "wordgaze/core/require.hpp"
 #include "wordgaze/env/environment.hpp"
@@ -29,19 +30,19 @@ int run(const Arguments& a) {
   for (const std::string& id : babyai::level_ids()) {
     if (id.find(a.pattern) == std::string::npos) continue;
     if (shown++ == 0 && !a.ids) {
-      fmt::print("{:<45} {:>7} {:>6} {:>6}  {}\n", "environment", "rooms", "cells", "steps",
-                 "a mission");
+      apps::say("{:<45} {:>7} {:>6} {:>6}  {}\n", "environment", "rooms", "cells", "steps",
+                "a mission");
     }
     if (a.ids) {
-      fmt::print("{}\n", id);
+      apps::say("{}\n", id);
       continue;
     }
     const babyai::LevelSpec level = babyai::find_level(id);
     env::Environment environment(level);
     environment.reset(1);
     const auto rooms = fmt::format("{}x{}", level.columns, level.rows);
-    fmt::print("{:<45} {:>7} {:>6} {:>6}  {}\n", id, rooms, level.room_size,
-               environment.max_steps(), environment.mission());
+    apps::say("{:<45} {:>7} {:>6} {:>6}  {}\n", id, rooms, level.room_size, environment.max_steps(),
+              environment.mission());
   }
   require(
       shown > 0 || a.pattern.empty(),

@@ -1,9 +1,10 @@
 // trace: reads and writes traces of episodes, and compares the simulator with the reference's.
-#include <fmt/core.h>
+#include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -12,10 +13,13 @@
 #include <vector>
 
 #include "command.hpp"
+#include "output.hpp"
 #include "wordgaze/babyai/level.hpp"
 #include "wordgaze/bot/policy.hpp"
 #include "wordgaze/core/require.hpp"
-#include "wordgaze/io/file.hpp"
+#include "wordgaze/io/file_stream.hpp"
+#include "wordgaze/io/output_check.hpp"
+#include "wordgaze/io/stop_signals.hpp"
 #include "wordgaze/policy/environment.hpp"
 #include "wordgaze/trace/record.hpp"
 #include "wordgaze/trace/replay.hpp"
@@ -49,25 +53,38 @@ int replay(const std::string& path) {
     if (!file) throw std::runtime_error(fmt::format("cannot read '{}'", path));
   }
   const trace::ReplayReport report = trace::replay(path == "-" ? std::cin : file, std::cerr);
-  fmt::print("envs {} resets {} steps {} mismatches {}\n", report.envs, report.resets, report.steps,
-             report.mismatches);
+  apps::say("envs {} resets {} steps {} mismatches {}\n", report.envs, report.resets, report.steps,
+            report.mismatches);
   if (report.resets == 0) {
     throw std::runtime_error(fmt::format("'{}' holds no episode: nothing was compared", path));
   }
   return report.mismatches == 0 ? 0 : 1;
 }
 
+/// The same policies, with a look between two actions whether to go on.
+env::PolicyMaker with_checks(env::PolicyMaker maker, std::function<void()> check) {
+  return [=](std::string_view id, std::uint64_t seed, std::uint64_t policy_seed) -> env::Policy {
+    return [=, policy = maker(id, seed, policy_seed)](const env::Environment& environment) {
+      check();
+      return policy(environment);
+    };
+  };
+}
+
 int record(trace::RecordOptions options, const std::string& path) {
-  if (options.ids == std::vector<std::string>{"all"}) options.ids = babyai::level_ids();
-  std::ofstream file;
-  if (path != "-") {
-    file.open(path);
-    if (!file) throw std::runtime_error(fmt::format("cannot write '{}'", path));
+  const io::StopSignals signals("\ntrace: stopping; again to stop at once\n");
+  if (path == "-") {
+    options.policy = with_checks(options.policy, io::StopSignals::check);
+    trace::record(options, std::cout);
+    return 0;
   }
-  std::ostream& out = path == "-" ? std::cout : file;
-  trace::record(options, out);
-  out.flush();
-  if (!out) throw std::runtime_error(fmt::format("could not write all of '{}'", path));
+  io::FileStream file(path);
+  options.policy = with_checks(options.policy, [&file] {
+    io::StopSignals::check();
+    file.check();
+  });
+  trace::record(options, file.stream());
+  file.commit();
   return 0;
 }
 
@@ -103,6 +120,10 @@ int run(Arguments a) {
   if (!a.replayed.empty()) return replay(a.replayed);
   require(!a.record.ids.empty(), "expected --replay FILE or --env ID");
   parse_seeds(a.seeds, a.record);
+  if (a.record.ids == std::vector<std::string>{"all"}) a.record.ids = babyai::level_ids();
+  for (const auto& id : a.record.ids) babyai::find_level(id);  // before anything is written
+  io::check_outputs(std::array{io::NamedPath{"--out", a.out == "-" ? "" : a.out}},
+                    std::array{io::NamedPath{"--checkpoint", a.checkpoint}});
   if (a.checkpoint.empty()) {
     a.record.policy = bot::policy_maker(a.record.policy_name);
   } else {

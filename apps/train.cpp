@@ -1,7 +1,8 @@
 // train: from a configuration to a trained agent, its metrics and its checkpoint.
-#include <fmt/core.h>
+#include <fmt/format.h>
 
-#include <csignal>
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -9,19 +10,23 @@
 
 #include "command.hpp"
 #include "listeners.hpp"
+#include "output.hpp"
+#include "wordgaze/core/require.hpp"
 #include "wordgaze/io/config_file.hpp"
 #include "wordgaze/io/csv_log.hpp"
 #include "wordgaze/io/file.hpp"
+#include "wordgaze/io/folder_lock.hpp"
+#include "wordgaze/io/output_check.hpp"
 #include "wordgaze/io/progress.hpp"
+#include "wordgaze/io/stop_signals.hpp"
 #include "wordgaze/training/checkpoint.hpp"
+#include "wordgaze/training/resume.hpp"
 
 namespace {
 
 using namespace wordgaze;
 using training::TrainConfig;
 namespace fs = std::filesystem;
-
-volatile std::sig_atomic_t interrupted = 0;
 
 struct Arguments {
   std::string config, out, init;
@@ -42,7 +47,8 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--threads", a.threads, "the same as --set threads=T")
       ->check(apps::whole_number(1, 256));
   app.add_option("--init", a.init, "checkpoint whose weights to start from (a second phase)");
-  app.add_flag("--resume", a.resume, "go on from OUT/checkpoint.safetensors");
+  app.add_flag("--resume", a.resume,
+               "go on from OUT/checkpoint.safetensors; from the start where there is none yet");
   app.add_option("--set", a.set, "section.key=value, as often as wanted")
       ->allow_extra_args(true)
       ->type_name("KEY=VALUE ...");
@@ -60,41 +66,48 @@ TrainConfig resolve(const Arguments& a) {
   return config;
 }
 
-/// Refuses to mix runs in one folder.
-void check_folder(const Arguments& a, const TrainConfig& config, const fs::path& checkpoint) {
-  const fs::path out = a.out;
-  if (fs::exists(out) && !fs::is_directory(out)) {
-    throw std::invalid_argument("--out '" + a.out + "' is a file; give a folder");
-  }
-  if (fs::exists(out / "config.toml")) {
-    auto before = io::read_config<TrainConfig>(out / "config.toml");
-    if (a.resume) before.frames = config.frames;  // a longer run may go on where it ended
-    const auto differences = io::differences(before, config);
-    if (!differences.empty()) {
-      std::string list;
-      for (const auto& line : differences) list += "\n  " + line;
-      throw std::invalid_argument("--out '" + a.out +
-                                  "' holds a run with another configuration (there, here):" + list +
-                                  "\ngive another --out, or the same settings with --resume");
-    }
-  }
-  if (a.resume && !fs::exists(checkpoint)) {
-    throw std::invalid_argument("--resume: there is no '" + checkpoint.string() +
-                                "' to go on from; start without --resume");
-  }
-  if (!a.resume && fs::exists(checkpoint)) {
-    throw std::invalid_argument("--out '" + a.out +
-                                "' holds a checkpoint already; add --resume to go on from it, or "
-                                "give another --out");
-  }
+/// The files of a run.
+struct Folder {
+  fs::path path;
+  fs::path config = path / "config.toml", metrics = path / "metrics.csv",
+           checkpoint = path / "checkpoint.safetensors";
+};
+
+/// Refuses to write over what is read.
+void check_files(const Arguments& a, const Folder& out) {
+  const std::array outputs{io::NamedPath{"--lcm-log", a.listeners.log}};
+  const std::array inputs{io::NamedPath{"--config", a.config}, io::NamedPath{"--init", a.init},
+                          io::NamedPath{"--out", out.config}, io::NamedPath{"--out", out.metrics},
+                          io::NamedPath{"--out", out.checkpoint}};
+  io::check_outputs(outputs, inputs);
 }
 
-void start(training::Trainer& trainer, const Arguments& a, const fs::path& checkpoint) {
-  if (a.resume) {
-    trainer.restore(training::load_state<policy::Agent>(checkpoint, trainer));
-  } else if (!a.init.empty()) {
-    trainer.set_params(training::load_params<policy::Agent>(a.init, trainer));
+/// Refuses to mix runs in one folder.
+void check_folder(const Arguments& a, const TrainConfig& config, const Folder& out) {
+  const std::string place = fmt::format("--out '{}'", a.out);
+  if (fs::exists(out.config)) {
+    auto before = io::read_config<TrainConfig>(out.config);
+    training::check_same_run(place, before, config);
+    // A longer run may go on where a shorter one ended.
+    require(a.resume || before.frames == config.frames,
+            "{} holds a run of {} frames, not of {}; give another --out, or add --resume", place,
+            before.frames, config.frames);
   }
+  if (!fs::exists(out.checkpoint)) return;
+  require(a.resume,
+          "{} holds a checkpoint already; add --resume to go on from it, or give another --out",
+          place);
+  training::check_same_run(fmt::format("'{}'", out.checkpoint.string()),
+                           training::load_config(out.checkpoint), config);
+}
+
+/// Takes up the run of a folder.
+void go_on(training::Trainer& trainer, const fs::path& checkpoint) {
+  const TrainConfig before = training::load_config(checkpoint), &now = trainer.config();
+  trainer.restore(training::load_state<policy::Agent>(checkpoint, trainer));
+  training::check_frames(before, now, trainer.frames());
+  const std::string changes = training::schedule_changes(before, now, trainer.frames());
+  if (!changes.empty()) apps::note("train: {}\n", changes);
 }
 
 std::string details(const training::Metrics& m) {
@@ -104,51 +117,70 @@ std::string details(const training::Metrics& m) {
 
 int run(const Arguments& a) {
   const TrainConfig config = resolve(a);
-  const fs::path out = a.out, checkpoint = out / "checkpoint.safetensors";
-  check_folder(a, config, checkpoint);
+  require(
+      !a.resume || a.init.empty(),
+      "--resume goes on with the weights in --out, --init starts from others; give one of them");
+  require(!fs::exists(a.out) || fs::is_directory(a.out), "--out '{}' is a file; give a folder",
+          a.out);
   training::Trainer trainer(config);
-  start(trainer, a, checkpoint);
+  if (!a.init.empty()) trainer.set_params(training::load_params<policy::Agent>(a.init, trainer));
+
+  const Folder out{a.out};
+  fs::create_directories(out.path);
+  const io::FolderLock lock(out.path);
+  check_files(a, out);
+  check_folder(a, config, out);
+  const bool goes_on = a.resume && fs::exists(out.checkpoint);
+  if (goes_on) go_on(trainer, out.checkpoint);
+  if (a.resume && !goes_on) {
+    apps::note("train: '{}' has no checkpoint yet; starting from the beginning\n", a.out);
+  }
 
   auto options = a.listeners;
-  options.run_id = apps::run_name(out, config.seed);
+  options.run_id = apps::run_name(out.path, config.seed);
   options.every = config.log_episodes;
-  if (a.resume) options.update = trainer.updates();
-  fs::create_directories(out);  // before the listeners: the log may lie there
+  if (goes_on) options.update = trainer.updates();
   apps::Listeners listeners(options);
 
-  io::clear_temporaries(out, {"config.toml", "metrics.csv", "checkpoint.safetensors"});
-  io::write_file(out / "config.toml", io::to_toml(config));
+  io::clear_temporaries(out.path, {"config.toml", "metrics.csv", "checkpoint.safetensors"});
+  io::write_file(out.config, io::to_toml(config));
   const auto columns = trainer.columns();
-  auto log = a.resume ? io::CsvLog::resume(out / "metrics.csv", columns, "frames",
-                                           static_cast<double>(trainer.frames()))
-                      : io::CsvLog(out / "metrics.csv", columns);
-  if (!log.gap().empty()) fmt::print(stderr, "note: metrics.csv has a hole: {}\n", log.gap());
+  auto log = goes_on ? io::CsvLog::resume(out.metrics, columns, "frames",
+                                          static_cast<double>(trainer.frames()))
+                     : io::CsvLog(out.metrics, columns);
+  if (!log.gap().empty()) apps::note("note: metrics.csv has a hole: {}\n", log.gap());
   trainer.set_seconds(log.last("seconds"));
+  const auto save = [&] {
+    log.sync();
+    training::save_checkpoint(out.checkpoint, config, trainer.state());
+  };
+  if (!goes_on) save();  // however early the run ends, --resume goes on with these weights
 
-  std::signal(SIGINT, [](int) { interrupted = 1; });
-  std::signal(SIGTERM, [](int) { interrupted = 1; });
+  const io::StopSignals signals(
+      "\ntrain: stopping after this update, everything will be saved; again to stop at once\n");
   {
     io::Progress progress("frames", trainer.frames(), config.frames);
-    while (!trainer.finished() && !interrupted) {
+    while (!trainer.finished() && signals.received() == 0) {
       const training::Metrics metrics = trainer.update(listeners.observer());
-      log.append(metrics.values());
-      progress.update(std::min(trainer.frames(), config.frames), details(metrics));
-      if (trainer.updates() % config.checkpoint_every == 0) {
-        log.sync();
-        training::save_checkpoint(checkpoint, config, trainer.state());
+      try {
+        log.append(metrics.values());
+      } catch (...) {
+        training::save_checkpoint(out.checkpoint, config, trainer.state());  // not the rows
+        throw;
       }
+      progress.update(std::min(trainer.frames(), config.frames), details(metrics));
+      if (trainer.updates() % config.checkpoint_every == 0) save();
     }
   }
-  log.sync();
-  training::save_checkpoint(checkpoint, config, trainer.state());
+  save();
   if (!trainer.finished()) {
-    fmt::print(stderr,
-               "stopped after {} frames; everything is saved in {}\n"
-               "to go on, give the same command with --resume\n",
-               trainer.frames(), checkpoint.string());
-    return 130;
+    apps::note(
+        "stopped after {} frames; everything is saved in {}\n"
+        "to go on, give the same command with --resume{}\n",
+        trainer.frames(), out.checkpoint.string(), a.init.empty() ? "" : " in place of --init");
+    return io::Stopped(signals.received()).exit_code();
   }
-  fmt::print("trained for {} frames; the agent is {}\n", trainer.frames(), checkpoint.string());
+  apps::say("trained for {} frames; the agent is {}\n", trainer.frames(), out.checkpoint.string());
   return 0;
 }
 

@@ -1,8 +1,7 @@
 #pragma once
-#include <fmt/core.h>
-
 #include <nlohmann/json.hpp>
 
+#include "output.hpp"
 #include "wordgaze/evaluation/transparency.hpp"
 
 /// Transparency as JSON and as a table; docs/metrics.md defines the numbers.
@@ -99,31 +98,29 @@ inline Json to_json(const evaluation::Transparency& t) {
 }
 
 inline void print(std::string_view name, const evaluation::Mass& mass, bool in_view = true) {
-  fmt::print("  {:<22} mass with {} target in view:", name, in_view ? "a" : "no");
+  say("  {:<22} mass with {} target in view:", name, in_view ? "a" : "no");
   const auto roles = names(evaluation::Role{});
   for (std::size_t r = 0; r < roles.size(); ++r) {
-    fmt::print(" {} {:.3f}", roles[r], mass.share[r].value());
+    say(" {} {:.3f}", roles[r], mass.share[r].value());
   }
-  fmt::print(" nowhere {:.3f}\n", mass.nowhere.value());
+  say(" nowhere {:.3f}\n", mass.nowhere.value());
 }
 
 inline void print(std::string_view name, const evaluation::Glow& glow) {
-  fmt::print("  {:<22} brightest object with no target in view: {:.3f}, above half in {:.4f}\n",
-             name, glow.brightest.value(), glow.over_half.value());
+  say("  {:<22} brightest object with no target in view: {:.3f}, above half in {:.4f}\n", name,
+      glow.brightest.value(), glow.over_half.value());
 }
 
 inline void print(std::string_view name, const evaluation::MapReport& report) {
   const auto& p = report.pointing;
-  fmt::print(
-      "  {:<22} points at a target {:.3f} (chance {:.3f}), at a named object {:.3f} ({:.3f})\n",
+  say("  {:<22} points at a target {:.3f} (chance {:.3f}), at a named object {:.3f} ({:.3f})\n",
       name, p.target.value(), p.target_chance.value(), p.named.value(), p.named_chance.value());
   print("", report.mass_in_view);
   print("", report.mass_out_of_view, false);
   const auto& f = report.faithfulness_in_view;
   for (const auto test : {Change::Test::deletion, Change::Test::insertion}) {
     for (const int k : evaluation::kDeletedCells) {
-      fmt::print(
-          "  {:<22} {} of {}: brightest {:.3f}, random others {:.3f}, other objects {:.3f}\n", "",
+      say("  {:<22} {} of {}: brightest {:.3f}, random others {:.3f}, other objects {:.3f}\n", "",
           test == Change::Test::deletion ? "deletion" : "insertion", k,
           f.of(test, Change::Cells::brightest, k).value(),
           f.of(test, Change::Cells::others, k).value(),
@@ -143,18 +140,18 @@ inline void print(const evaluation::Transparency& t) {
   print("gradient", t.gradient());
   print("gradient times input", t.gradient_times_input());
   if (t.has_gaze()) {
-    fmt::print("  {:<22} points at its color {:.3f}, its type {:.3f}\n", "map of a word",
-               t.words().color.value(), t.words().type.value());
-    fmt::print("  {:<22} content {:.3f}, function {:.3f}; all content words {:.3f} (even {:.3f})\n",
-               "weight of a word", t.weights().content.value(), t.weights().function.value(),
-               t.weights().content_share.value(), t.weights().even_share.value());
+    say("  {:<22} points at its color {:.3f}, its type {:.3f}\n", "map of a word",
+        t.words().color.value(), t.words().type.value());
+    say("  {:<22} content {:.3f}, function {:.3f}; all content words {:.3f} (even {:.3f})\n",
+        "weight of a word", t.weights().content.value(), t.weights().function.value(),
+        t.weights().content_share.value(), t.weights().even_share.value());
   }
   if (t.has_mask()) {
-    fmt::print("  {:<22} F1 {:.4f}; alpha {:.3f} on bright words, {:.3f} on dark ones\n", "mask",
-               t.mask().f1(), t.mask().bright.value(), t.mask().dark.value());
-    fmt::print("  {:<22} follows {} of {} changes of c_t at once, {} in all, after {:.2f} steps\n",
-               "", t.mask_delay().at_once(), t.mask_delay().changes(), t.mask_delay().steps().count,
-               t.mask_delay().steps().value());
+    say("  {:<22} F1 {:.4f}; alpha {:.3f} on bright words, {:.3f} on dark ones\n", "mask",
+        t.mask().f1(), t.mask().bright.value(), t.mask().dark.value());
+    say("  {:<22} follows {} of {} changes of c_t at once, {} in all, after {:.2f} steps\n", "",
+        t.mask_delay().at_once(), t.mask_delay().changes(), t.mask_delay().steps().count,
+        t.mask_delay().steps().value());
   }
 }
 

@@ -1,16 +1,18 @@
 // wordgaze: one program with a command for each task. Called by the name of a command (train, eval,
 // trace, bench: links in the build folder) it is that command.
-#include <fmt/core.h>
-
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <functional>
+#include <new>
 #include <stdexcept>
 #include <string>
 
 #include "command.hpp"
+#include "wordgaze/io/standard_streams.hpp"
+#include "wordgaze/io/stop_signals.hpp"
 
 namespace {
 
@@ -18,6 +20,19 @@ using namespace wordgaze;
 
 constexpr int kFailed = 1;  // something went wrong
 constexpr int kBadUse = 2;  // the command line, or a value that the user gave
+
+/// No option means anything when it is empty: it comes of a variable of the shell that is not set.
+void refuse_empty_options(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    if (option->get_positional()) continue;
+    const auto& values = option->results();
+    if (std::ranges::find(values, "") == values.end()) continue;
+    throw std::invalid_argument(option->get_name() +
+                                " is empty (a variable that is not set?); give it a value or leave "
+                                "it out");
+  }
+  for (const CLI::App* command : app.get_subcommands()) refuse_empty_options(*command);
+}
 
 /// Parses, and runs what was asked for.
 int parse_and_run(CLI::App& app, const std::function<int()>& run, int argc, char** argv) {
@@ -27,15 +42,8 @@ int parse_and_run(CLI::App& app, const std::function<int()>& run, int argc, char
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kBadUse;  // --help and --version are no errors
   }
-  try {
-    return run();
-  } catch (const std::invalid_argument& error) {
-    fmt::print(stderr, "{}: {}\n", app.get_name(), error.what());
-    return kBadUse;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "{}: {}\n", app.get_name(), error.what());
-    return kFailed;
-  }
+  refuse_empty_options(app);
+  return run();
 }
 
 int run_alone(const apps::Command& command, int argc, char** argv) {
@@ -44,12 +52,10 @@ int run_alone(const apps::Command& command, int argc, char** argv) {
   return parse_and_run(app, run, argc, argv);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// The command that the program is called by, or that is its first argument.
+int run_command(const std::string& called, int argc, char** argv) {
   const std::array commands{apps::train_command(), apps::eval_command(), apps::trace_command(),
                             apps::bench_command(), apps::levels_command()};
-  const std::string called = argc > 0 ? std::filesystem::path(argv[0]).filename().string() : "";
   const auto named = std::ranges::find(commands, called, &apps::Command::name);
   if (named != commands.end()) return run_alone(*named, argc, argv);
 
@@ -62,4 +68,32 @@ int main(int argc, char** argv) {
   }
   return parse_and_run(
       app, [&] { return chosen(); }, argc, argv);
+}
+
+/// Says what went wrong; where that cannot be written, the exit code has to do.
+int fail(const std::string& program, const char* what, int code) noexcept {
+  std::fprintf(stderr, "%s: %s\n", program.c_str(), what);
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  io::secure_standard_streams();
+  std::string called = "wordgaze";
+  try {
+    if (argc > 0) called = std::filesystem::path(argv[0]).filename().string();
+    const int code = run_command(called, argc, argv);
+    return io::flush_standard_output() || code != 0 ? code : kFailed;
+  } catch (const io::Stopped& stopped) {
+    return fail(called, stopped.what(), stopped.exit_code());
+  } catch (const std::invalid_argument& error) {
+    return fail(called, error.what(), kBadUse);
+  } catch (const std::bad_alloc&) {
+    return fail(called, "out of memory; smaller sizes and fewer --threads need less", kFailed);
+  } catch (const std::exception& error) {
+    return fail(called, error.what(), kFailed);
+  } catch (...) {
+    return fail(called, "an error that does not say what it is", kFailed);
+  }
 }

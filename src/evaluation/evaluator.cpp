@@ -61,6 +61,7 @@ EvaluationResult run_share(const PolicyFactory& make_policy, const Evaluation& e
   };
   for (int b = 0; b < lane_count; ++b) start(b);
   while (running > 0) {
+    if (e.between_steps) e.between_steps();
     for (int b = 0; b < lane_count; ++b) {
       Lane& lane = lanes[static_cast<std::size_t>(b)];
       if (!lane.running) continue;
@@ -97,6 +98,7 @@ EvaluationResult run_share(const env::PolicyMaker& make_policy, const Evaluation
     environment.reset(seed);
     Outcome outcome;
     for (env::Transition now; !now.terminated && !now.truncated;) {
+      if (e.between_steps) e.between_steps();
       now = environment.step(policy(environment));
       outcome.episode_return += now.reward;
       outcome.success = now.terminated && now.reward > 0;

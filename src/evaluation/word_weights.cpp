@@ -5,6 +5,7 @@
 namespace wordgaze::evaluation {
 
 void WordWeights::add(std::span<const float> weights, const babyai::Sentence& sentence) {
+  if (sentence.length == 0) return;
   double weight = 0;
   int words = 0;
   for (int i = 0; i < sentence.length; ++i) {

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "wordgaze/core/require.hpp"
+#include "wordgaze/io/standard_streams.hpp"
 
 namespace wordgaze::io {
 namespace {
@@ -41,7 +42,7 @@ Progress::Progress(std::string unit, std::int64_t done, std::int64_t total, Opti
 }
 
 Progress::~Progress() {
-  if (line_open_) std::fputc('\n', options_.out);
+  if (line_open_) print(options_.out, "\n");
 }
 
 std::string Progress::line(std::int64_t done, std::string_view details, double now) const {
@@ -66,12 +67,11 @@ void Progress::update(std::int64_t done, std::string_view details) {
   std::string text = line(done, details, now);
   if (terminal_) {
     text.resize(std::min(text.size(), width(options_.out) - 1));
-    fmt::print(options_.out, "\r{}\033[K", text);
+    print(options_.out, fmt::format("\r{}\033[K", text));
   } else {
-    fmt::print(options_.out, "{}\n", text);
+    print(options_.out, text + '\n');
   }
   line_open_ = terminal_;
-  std::fflush(options_.out);
 }
 
 }  // namespace wordgaze::io

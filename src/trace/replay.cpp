@@ -169,7 +169,12 @@ ReplayReport replay(std::istream& in, std::ostream& details) {
       fail(number, error.what());
     }
   }
-  return replay.report();
+  if (in.bad()) throw std::runtime_error("trace: it cannot be read");
+  const ReplayReport report = replay.report();
+  if (report.resets == 0) {
+    throw std::runtime_error("trace: no episode begins in it, so nothing was compared");
+  }
+  return report;
 }
 
 }  // namespace wordgaze::trace

@@ -33,6 +33,7 @@ void BasicBatch<S>::gather(const model::Config& config, const Rollout& r,
     bright.resize(n);
     for (auto* numbers : {&log_prob, &advantage, &value_target}) numbers->resize(n);
   }
+  actions = r.actions;
   missions.clear();
   for (Index b = 0; b < shape.batch; ++b) {
     const int sequence = sequences[static_cast<std::size_t>(b)];

@@ -46,6 +46,12 @@ grid::ObjectId first_of(grid::ObjectSet set) {
   return static_cast<grid::ObjectId>(std::countr_zero(set));
 }
 
+/// Whether the agent could have it in hand, were it near.
+bool can_be_taken(const grid::World& world, grid::ObjectId id) {
+  return world.carried == grid::kNothing && world.stands(id) &&
+         grid::can_be_carried(world.object(id));
+}
+
 /// Moves objects to cells around the target of the first clause, as long as the agent can still
 /// walk to every target.
 void huddle(env::Environment& environment, core::Rng& rng) {
@@ -96,12 +102,13 @@ grid::ObjectId any_object(const grid::World& world, core::Rng& rng) {
 /// Makes every clause ask for some object of the world by its color or its type alone.
 void describe_partly(const grid::World& world, babyai::Instruction& wanted, core::Rng& rng) {
   for (int i = 0; i < wanted.clauses(); ++i) {
+    auto& clause = wanted.clause[static_cast<std::size_t>(i)];
+    if (clause.verb == Verb::open) continue;  // what can be carried cannot be opened
     const auto id = any_object(world, rng);
     if (id == grid::kNothing) return;
     const auto& object = world.object(id);
-    wanted.clause[static_cast<std::size_t>(i)].object =
-        rng.below(2) == 0 ? babyai::Description{.type = object.type}
-                          : babyai::Description{.color = object.color};
+    clause.object = rng.below(2) == 0 ? babyai::Description{.type = object.type}
+                                      : babyai::Description{.color = object.color};
   }
 }
 
@@ -110,13 +117,25 @@ bool can_be_half_done(const babyai::Instruction& instruction) {
   return instruction.clauses() > 1 || instruction.clause[0].verb == Verb::put_next;
 }
 
+/// Starts with the first of some objects in hand that can be; where the hand is full or there is
+/// none, nothing changes.
+bool take_one(env::Environment& environment, grid::ObjectSet of) {
+  for (; of != 0; of &= of - 1) {
+    if (!can_be_taken(environment.world(), first_of(of))) continue;
+    environment.take_object(first_of(of));
+    return true;
+  }
+  return false;
+}
+
 /// With several clauses, marks from one to all but one, in an order that the mission allows; a
-/// single "put next" starts with its object in hand.
-void half_do(env::Environment& environment, core::Rng& rng) {
+/// single "put next" starts with its object in hand. Returns whether anything has changed.
+bool half_do(env::Environment& environment, core::Rng& rng) {
   const int most = environment.instruction().clauses() - 1;
-  if (most == 0) return environment.take_object(first_of(environment.meaning().object[0]));
+  if (most == 0) return take_one(environment, environment.meaning().object[0]);
   const int marks = most > 1 ? 1 + rng.below(most) : 1;
   for (int i = 0; i < marks; ++i) complete_one(environment, rng);
+  return true;
 }
 
 }  // namespace
@@ -177,8 +196,7 @@ Curriculum::Preparation Curriculum::prepare(env::Environment& environment, core:
     prepared.helped = true;
   }
   if (half_done_ > 0 && can_be_half_done(wanted) && rng.uniform() < half_done_) {
-    half_do(environment, rng);
-    prepared.helped = true;
+    prepared.helped = half_do(environment, rng) || prepared.helped;
   }
   return prepared;
 }

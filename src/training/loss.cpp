@@ -21,14 +21,15 @@ class PpoTerm final : public BasicLoss<S> {
                           .value_coefficient = static_cast<S>(ppo_.value_coefficient),
                           .entropy_coefficient = static_cast<S>(rates.entropy_coefficient)};
     typename PpoLoss<S>::Sums sum;
+    const auto actions = static_cast<std::size_t>(batch.actions);
     for (Index n = 0; n < outputs.logits.cols(); ++n) {
       const auto i = static_cast<std::size_t>(n);
       loss.add({.action = batch.action[i],
                 .old_log_prob = batch.log_prob[i],
                 .advantage = batch.advantage[i],
                 .value_target = batch.value_target[i]},
-               {outputs.logits.col(n).data(), grid::kActions}, outputs.values(0, n), scale,
-               {gradient.logits.col(n).data(), grid::kActions}, gradient.values(0, n), sum);
+               {outputs.logits.col(n).data(), actions}, outputs.values(0, n), scale,
+               {gradient.logits.col(n).data(), actions}, gradient.values(0, n), sum);
     }
     const std::array numbers{sum.policy, sum.value, sum.entropy, sum.divergence, sum.clipped};
     for (std::size_t k = 0; k < numbers.size(); ++k) sums[k] += numbers[k];

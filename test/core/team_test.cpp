@@ -1,7 +1,10 @@
 #include "wordgaze/core/team.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
+#include <cstdio>
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -55,6 +58,33 @@ TEST(Team, RethrowsTheFirstOfSeveralExceptionsAndForgetsTheOthers) {
     EXPECT_STREQ(error.what(), "1");
   }
   EXPECT_NO_THROW(team.run([](int) {}));
+}
+
+TEST(Team, RefusesToBeNobody) {
+  EXPECT_THROW(Team(0), std::invalid_argument);
+  EXPECT_THROW(Team(-1), std::invalid_argument);
+}
+
+TEST(Team, ThatCannotHaveItsThreadsSaysSo) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers want more room than this leaves";
+#endif
+  // Room for a few stacks of threads, no more.
+  EXPECT_EXIT(
+      {
+        rlimit limit{};
+        ::getrlimit(RLIMIT_AS, &limit);
+        limit.rlim_cur = 400'000 * rlim_t{1024};
+        ::setrlimit(RLIMIT_AS, &limit);
+        try {
+          const Team team(256);
+        } catch (const std::runtime_error& error) {
+          std::fprintf(stderr, "%s\n", error.what());
+          std::exit(3);
+        }
+        std::exit(0);
+      },
+      testing::ExitedWithCode(3), "256 threads");
 }
 
 }  // namespace

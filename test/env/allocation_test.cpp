@@ -1,7 +1,10 @@
 // Counts what the simulator takes from the heap: replaces operator new for the whole program.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 
@@ -11,18 +14,61 @@ namespace {
 std::atomic<std::int64_t> allocations = 0;
 }  // namespace
 
-// Not inlined: GCC would take the pair for a mismatch.
-[[gnu::noinline]] void* operator new(std::size_t size) {
+// All forms, for memory of one must not go to another's. Not inlined: GCC would take the pairs for
+// mismatches.
+#define WORDGAZE_REPLACES [[gnu::noinline]]
+
+namespace {
+
+void* take(std::size_t size, std::size_t alignment = alignof(std::max_align_t)) noexcept {
   ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
+  if (alignment <= alignof(std::max_align_t)) return std::malloc(std::max<std::size_t>(size, 1));
+  void* memory = nullptr;
+  return posix_memalign(&memory, alignment, size) == 0 ? memory : nullptr;
+}
+void* take_or_throw(std::size_t size, std::size_t alignment = alignof(std::max_align_t)) {
+  if (void* memory = take(size, alignment)) return memory;
   throw std::bad_alloc();
 }
-[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++allocations;
-  return std::malloc(size);
+
+}  // namespace
+
+using std::align_val_t;
+using std::nothrow_t;
+using std::size_t;
+
+WORDGAZE_REPLACES void* operator new(size_t n) { return take_or_throw(n); }
+WORDGAZE_REPLACES void* operator new[](size_t n) { return take_or_throw(n); }
+WORDGAZE_REPLACES void* operator new(size_t n, const nothrow_t&) noexcept { return take(n); }
+WORDGAZE_REPLACES void* operator new[](size_t n, const nothrow_t&) noexcept { return take(n); }
+WORDGAZE_REPLACES void* operator new(size_t n, align_val_t a) {
+  return take_or_throw(n, size_t(a));
 }
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+WORDGAZE_REPLACES void* operator new[](size_t n, align_val_t a) {
+  return take_or_throw(n, size_t(a));
+}
+WORDGAZE_REPLACES void* operator new(size_t n, align_val_t a, const nothrow_t&) noexcept {
+  return take(n, size_t(a));
+}
+WORDGAZE_REPLACES void* operator new[](size_t n, align_val_t a, const nothrow_t&) noexcept {
+  return take(n, size_t(a));
+}
+WORDGAZE_REPLACES void operator delete(void* p) noexcept { std::free(p); }
+WORDGAZE_REPLACES void operator delete[](void* p) noexcept { std::free(p); }
+WORDGAZE_REPLACES void operator delete(void* p, size_t) noexcept { std::free(p); }
+WORDGAZE_REPLACES void operator delete[](void* p, size_t) noexcept { std::free(p); }
+WORDGAZE_REPLACES void operator delete(void* p, const nothrow_t&) noexcept { std::free(p); }
+WORDGAZE_REPLACES void operator delete[](void* p, const nothrow_t&) noexcept { std::free(p); }
+WORDGAZE_REPLACES void operator delete(void* p, align_val_t) noexcept { std::free(p); }
+WORDGAZE_REPLACES void operator delete[](void* p, align_val_t) noexcept { std::free(p); }
+WORDGAZE_REPLACES void operator delete(void* p, size_t, align_val_t) noexcept { std::free(p); }
+WORDGAZE_REPLACES void operator delete[](void* p, size_t, align_val_t) noexcept { std::free(p); }
+WORDGAZE_REPLACES void operator delete(void* p, align_val_t, const nothrow_t&) noexcept {
+  std::free(p);
+}
+WORDGAZE_REPLACES void operator delete[](void* p, align_val_t, const nothrow_t&) noexcept {
+  std::free(p);
+}
 
 namespace wordgaze::env {
 namespace {

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
+#include <cstdio>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -35,6 +37,37 @@ class ProgressLine : public ::testing::Test {
   }
   double now_ = 1000;
 };
+
+TEST_F(ProgressLine, IsDecorationThatMayBeLost) {
+  const auto expect_no_harm = [&](std::FILE* out) {
+    Progress progress("frames", 0, 100, options(out));
+    for (const int done : {10, 20, 100}) {
+      now_ += 20;
+      EXPECT_NO_THROW(progress.update(done, "success 0.5"));
+    }
+  };
+  std::FILE* full = std::fopen("/dev/full", "w");
+  expect_no_harm(full);
+  std::fclose(full);
+  std::FILE* unwritable = std::fopen("/dev/zero", "r");
+  expect_no_harm(unwritable);
+  std::fclose(unwritable);
+  const auto before = std::signal(SIGPIPE, SIG_IGN);  // as the program does
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
+  ::close(ends[0]);
+  std::FILE* unread = ::fdopen(ends[1], "w");
+  expect_no_harm(unread);
+  std::fclose(unread);
+  std::signal(SIGPIPE, before);
+  int controller = 0, terminal = 0;
+  ASSERT_EQ(::openpty(&controller, &terminal, nullptr, nullptr, nullptr), 0);
+  std::FILE* closed = ::fdopen(terminal, "w");
+  Progress progress("frames", 0, 100, options(closed));
+  ::close(controller);
+  now_ += 20;
+  EXPECT_NO_THROW(progress.update(50, ""));
+}
 
 TEST_F(ProgressLine, IsPlainNowAndThenInAFile) {
   const TemporaryFolder folder;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "model/agent_fixture.hpp"
 #include "wordgaze/model/reference.hpp"
 #include "wordgaze/nn/gradient_check.hpp"
@@ -55,9 +57,11 @@ bool is_fixed(const nn::Path& path) { return path.str() == "attention.focus"; }
 
 struct AgentVariant : testing::TestWithParam<Config> {
   AgentFixture<double> f{GetParam()};
+  void expect_plain_twin();
+  void expect_gradients_of_central_differences();
 };
 
-TEST_P(AgentVariant, EqualsItsPlainTwin) {
+void AgentVariant::expect_plain_twin() {
   f.forward();
   const auto twin = ReferenceAgent<double>{f.agent, f.params}.run(f.frames, f.missions);
   EXPECT_TRUE(f.outputs.logits.isApprox(twin.logits, 1e-12));
@@ -68,7 +72,7 @@ TEST_P(AgentVariant, EqualsItsPlainTwin) {
   }
 }
 
-TEST_P(AgentVariant, GradientsMatchCentralDifferences) {
+void AgentVariant::expect_gradients_of_central_differences() {
   const Outputs<double> asked = f.random_gradient();
   const auto loss = [&] {
     f.forward();
@@ -83,6 +87,26 @@ TEST_P(AgentVariant, GradientsMatchCentralDifferences) {
   const auto grads = f.gradient(asked);
   const nn::GradientError error = nn::check_gradients(f.params, grads, loss, is_fixed);
   EXPECT_LE(error.worst, 1e-6) << error.where;
+}
+
+TEST_P(AgentVariant, EqualsItsPlainTwin) { expect_plain_twin(); }
+
+TEST_P(AgentVariant, GradientsMatchCentralDifferences) {
+  expect_gradients_of_central_differences();
+}
+
+TEST_P(AgentVariant, AMissionWithoutWordsGoesBesideOthers) {
+  f.missions.replace(f.frames.mission(0), {});
+  expect_plain_twin();
+  expect_gradients_of_central_differences();
+}
+
+TEST_P(AgentVariant, NoMissionNeedHaveWords) {
+  f.missions.clear();
+  f.missions.index_of({});
+  std::ranges::fill(f.frames.mission_of, 0);
+  expect_plain_twin();
+  expect_gradients_of_central_differences();
 }
 
 TEST_P(AgentVariant, WorkersSumUpToTheSameGradient) {

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
+#include <cmath>
+#include <vector>
 
 #include "wordgaze/policy/environment.hpp"
 
@@ -75,11 +78,13 @@ TEST(Policy, RefusesWhatItCannotReadAndStaysAsItWas) {
   policy.decide(Greedy{});
   const auto before = logits_of(policy, 0);
   policy.begin(0);
-  Observation foreign = kBall, silent = kBall;
+  Observation foreign = kBall, idle = kBall;
   foreign.image[0] = 4;  // a door, in an alphabet of rooms without
-  silent.sentence = {};
+  idle.actions = 0;
   EXPECT_THROW(policy.observe(0, foreign), std::invalid_argument);
-  EXPECT_THROW(policy.observe(0, silent), std::invalid_argument);
+  EXPECT_THROW(policy.observe(0, idle), std::invalid_argument);
+  idle.actions = grid::kActions + 1;
+  EXPECT_THROW(policy.observe(0, idle), std::invalid_argument);
   EXPECT_THROW(policy.observe(1, kBall), std::invalid_argument);
   EXPECT_THROW(policy.begin(-1), std::invalid_argument);
   policy.decide(Greedy{});
@@ -116,6 +121,53 @@ TEST(Policy, ADecisionSaysWhatWasChosenAndHowSurely) {
   EXPECT_EQ(chosen.action, 5u);
   EXPECT_NEAR(std::exp(chosen.log_prob), p[5], 1e-5);
   EXPECT_EQ(chosen.value, greedy.value);
+}
+
+TEST(Policy, DecidesWithoutWords) {
+  const auto trained = agent_with(with(4, true));
+  NetworkPolicy policy(trained);
+  Observation silent = kBall;
+  silent.sentence = {};
+  policy.observe(0, silent);
+  const Decision decision = policy.decide(Greedy{})[0];
+  EXPECT_TRUE(std::isfinite(decision.log_prob) && std::isfinite(decision.value));
+  AttentionRecord record;
+  policy.attention(0, record);
+  EXPECT_TRUE(record.weights.empty() && record.maps.empty());
+  EXPECT_EQ(record.gaze.size(), std::size_t{grid::kViewCells});
+}
+
+TEST(Policy, DecidesAmongTheActionsThatArePossible) {
+  const auto trained = agent_with(with(4, false));
+  NetworkPolicy policy(trained, 2), all(trained, 2);
+  Observation narrow = kBall;
+  narrow.actions = 3;
+  for (int lane : {0, 1}) all.observe(lane, kBall);
+  policy.observe(0, narrow);
+  policy.observe(1, kBall);
+  const auto unmasked = all.decide(Greedy{});
+  std::vector<std::size_t> choices;
+  const auto decisions = policy.decide([&](int, std::span<const float> log_probs) {
+    choices.push_back(log_probs.size());
+    double sum = 0;
+    for (const float l : log_probs) sum += std::exp(static_cast<double>(l));
+    EXPECT_NEAR(sum, 1, 1e-5);
+    return log_probs.size() - 1;
+  });
+  EXPECT_EQ(choices, (std::vector<std::size_t>{3, grid::kActions}));
+  EXPECT_EQ(policy.logits(0).size(), 3u);
+  EXPECT_EQ(decisions[1].log_prob, [&] {
+    const auto z = all.logits(1);
+    std::array<float, grid::kActions> log_probs;
+    nn::Categorical<float>::log_softmax(z, log_probs);
+    return log_probs.back();
+  }());
+  EXPECT_EQ(decisions[0].value, unmasked[0].value);
+  // Of three equally likely actions none could say more than log 3.
+  EXPECT_LE(decisions[0].entropy, std::log(3.0f) + 1e-6f);
+  const auto asked = policy.policies_for(0, policy.frames().cells.col(0));
+  EXPECT_NEAR(asked.topRows(3).sum(), 1, 1e-5);
+  EXPECT_EQ(asked.bottomRows(grid::kActions - 3).sum(), 0);
 }
 
 TEST(Policy, RemembersWithinAnEpisodeAlone) {

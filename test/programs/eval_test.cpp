@@ -173,6 +173,76 @@ TEST_F(Eval, RefusesPlacesThatCannotBeWritten) {
   EXPECT_TRUE(refused(run("eval --checkpoint ckpt --episodes 1 --pictures ckpt"), "ckpt"));
 }
 
+TEST_F(Eval, RefusesToWriteOverWhatItReads) {
+  run("ln -s ckpt link; cp ckpt before");
+  for (const std::string output : {"ckpt", "link", "./ckpt"}) {
+    EXPECT_TRUE(refused(run("eval --checkpoint ckpt --episodes 1 --json " + output), "--json",
+                        "--checkpoint"));
+#if WORDGAZE_WITH_LCM
+    EXPECT_TRUE(refused(run("eval --checkpoint ckpt --episodes 1 --lcm-log " + output), "--lcm-log",
+                        "--checkpoint"));
+#endif
+  }
+  EXPECT_TRUE(refused(run("eval --checkpoint link --episodes 1 --json ckpt"), "--json"));
+  EXPECT_TRUE(succeeded(run("cmp ckpt before")));
+}
+
+TEST_F(Eval, ChecksItsOutputsBeforeTheWork) {
+  // Ten million episodes would outlast the test.
+  for (const std::string output : {"--json no/dir/e.json", "--json .", "--pictures ckpt",
+                                   "--json ckpt/e.json", "--json e.json --pictures /proc/p"}) {
+    EXPECT_TRUE(
+        refused(run("timeout 100 eval --checkpoint ckpt --episodes 10000000 " + output), "e"))
+        << output;
+  }
+}
+
+TEST_F(Eval, KeepsItsNumbersWhateverTheNameOfTheCheckpoint) {
+  ASSERT_TRUE(
+      succeeded(run("cp ckpt $'ck\\xff\\xfe'; eval --checkpoint $'ck\\xff\\xfe' "
+                    "--episodes 2 --json e.json")));
+  const auto report = nlohmann::json::parse(run.read("e.json"));
+  EXPECT_EQ(report.at("settings").size(), 2u);
+  EXPECT_TRUE(report.at("checkpoint").get<std::string>().starts_with("ck"));
+}
+
+TEST_F(Eval, SaysThatItsTableCouldNotBeWritten) {
+  EXPECT_TRUE(refused(run("eval --checkpoint ckpt --episodes 2 --json e.json >/dev/full"),
+                      "standard output", "No space left on device"));
+  EXPECT_TRUE(contains(run.read("e.json"), "success_rate"));
+  EXPECT_TRUE(succeeded(run("eval --checkpoint ckpt --episodes 2 2>&- >&-")));
+}
+
+TEST_F(Eval, SaysThatThereAreTooManyThreads) {
+  const auto crowded = run("ulimit -v 400000; eval --checkpoint ckpt --episodes 5 --threads 256");
+  EXPECT_TRUE(refused(crowded, "eval: "));
+  EXPECT_EQ(crowded.err.find("terminate"), std::string::npos) << crowded.err;
+}
+
+TEST_F(Eval, StopsForASignal) {
+  for (const std::string who : {"--checkpoint ckpt", "--policy bot --env BabyAI-GoToLocal-v0"}) {
+    const auto stopped = run("timeout --preserve-status --signal=INT 1 eval " + who +
+                             " --episodes 10000000 --json e.json");
+    EXPECT_EQ(stopped.status, 130) << describe(stopped);
+    EXPECT_TRUE(contains(stopped.err, "stopped by a signal"));
+    EXPECT_FALSE(run.has("e.json"));
+  }
+}
+
+TEST_F(Eval, EndsWellInLevelsOfEveryKind) {
+  const std::string model = "'" WORDGAZE_SOURCE_DIR "/models/single-attention.safetensors'";
+  for (const std::string id :
+       {"MiniGrid-Playground-v0", "MiniGrid-Dynamic-Obstacles-5x5-v0", "MiniGrid-Empty-5x5-v0",
+        "MiniGrid-MemoryS7-v0", "MiniGrid-GoToDoor-5x5-v0", "BabyAI-PutNextS5N2Carrying-v0",
+        "BabyAI-BossLevel-v0", "Wordgaze-Eight-N8-K8-v0"}) {
+    for (const std::string& checkpoint : {std::string("ckpt"), model}) {
+      EXPECT_TRUE(succeeded(
+          run("eval --checkpoint " + checkpoint + " --episodes 1 --transparency --env " + id)))
+          << id;
+    }
+  }
+}
+
 #if WORDGAZE_WITH_LCM
 TEST_F(Eval, LogsWhatHappenedAndWhatWasSeen) {
   ASSERT_TRUE(succeeded(

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "programs/shell.hpp"
+#include "support/messages.hpp"
 
 namespace wordgaze {
 namespace {
@@ -77,6 +78,46 @@ TEST_F(Trace, RefusesMissingAndForeignFiles) {
   EXPECT_TRUE(refused(run("trace --replay nothing.jsonl"), "nothing.jsonl"));
   run.write("poem.txt", "Two roads diverged in a yellow wood\n");
   EXPECT_TRUE(refused(run("trace --replay poem.txt"), "line 1"));
+}
+
+TEST_F(Trace, ReplayingNothingIsAnError) {
+  run.write("empty.jsonl", "");
+  run.write("meta.jsonl", "{\"t\":\"meta\"}\n");
+  for (const std::string nothing : {".", "empty.jsonl", "meta.jsonl", "/dev/null", "-"}) {
+    const auto replayed = run("trace --replay " + nothing);
+    EXPECT_TRUE(refused(replayed, "trace")) << nothing;
+    EXPECT_EQ(replayed.out.find("mismatches"), std::string::npos) << nothing;
+  }
+}
+
+TEST_F(Trace, RefusesToWriteOverTheAgent) {
+  const std::string model = WORDGAZE_SOURCE_DIR "/models/single-attention.safetensors";
+  run("cp '" + model + "' w; ln -s w link");
+  for (const std::string out : {"w", "link"}) {
+    EXPECT_TRUE(
+        refused(run("trace --env Wordgaze-One-N8-K4-v0 --checkpoint w --steps 3 --out " + out),
+                "--out", "--checkpoint"));
+  }
+  EXPECT_TRUE(succeeded(run("cmp w '" + model + "'")));
+}
+
+TEST_F(Trace, LeavesTheOldFileWhereTheNewOneIsNotWhole) {
+  write_small_trace();
+  run("cp t.jsonl before");
+  const std::string endless =
+      "trace --env BabyAI-GoToLocal-v0 --seeds 0:3 --steps 1000000000 --out t.jsonl";
+  const auto stopped = run("timeout --preserve-status --signal=TERM 1 " + endless);
+  EXPECT_EQ(stopped.status, 143) << describe(stopped);
+  EXPECT_TRUE(contains(stopped.err, "stopped by a signal"));
+  EXPECT_TRUE(refused(run("ulimit -f 64; " + endless), "t.jsonl", "File too large"));
+  EXPECT_TRUE(refused(run("trace --env BabyAI-GoToLocal-v0,BabyAI-GoToLokal-v0 --out t.jsonl"),
+                      "BabyAI-GoToLokal-v0"));
+  EXPECT_TRUE(succeeded(run("cmp t.jsonl before && ! ls | grep tmp")));
+}
+
+TEST_F(Trace, SaysThatStandardOutputIsFull) {
+  EXPECT_TRUE(refused(run("trace --env BabyAI-GoToLocal-v0 --seeds 0:1 --steps 3 >/dev/full"),
+                      "standard output", "No space left on device"));
 }
 
 TEST_F(Trace, RefusesATruncatedFile) {

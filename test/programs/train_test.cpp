@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
 #include "programs/tiny_run.hpp"
 #include "support/messages.hpp"
 
@@ -39,13 +42,75 @@ TEST_F(Train, GoesOnFromItsCheckpoint) {
   EXPECT_TRUE(succeeded(run("test $(wc -l <half/metrics.csv) = $(wc -l <whole/metrics.csv)")));
 }
 
-TEST_F(Train, StopsForAnInterruptAndSaysHowToGoOn) {
-  const Shell::Result stopped =
-      run("timeout --preserve-status --signal=INT 2 train --config tiny.toml --out a --frames "
-          "100000000");
-  EXPECT_EQ(stopped.status, 130);
-  EXPECT_TRUE(contains(stopped.err, "--resume"));
+/// So many that only a signal ends the run.
+const std::string kEndless = "train --config tiny.toml --frames 100000000";
+
+TEST_F(Train, StopsForASignalAndSaysHowToGoOn) {
+  const std::pair<std::string, int> signals[]{{"INT", 130}, {"TERM", 143}, {"HUP", 129}};
+  for (const auto& [signal, status] : signals) {
+    const Shell::Result stopped =
+        run("timeout --preserve-status --signal=" + signal + " 1 " + kEndless + " --out " + signal);
+    EXPECT_EQ(stopped.status, status) << describe(stopped);
+    EXPECT_TRUE(contains(stopped.err, "again to stop at once"));
+    EXPECT_TRUE(contains(stopped.err, "--resume"));
+    // What the metrics tell of is in the checkpoint.
+    const auto rows = run("tail -n +2 " + signal + "/metrics.csv | wc -l").out;
+    const auto resumed =
+        run("timeout --preserve-status --signal=INT 1 " + kEndless + " --resume --out " + signal);
+    EXPECT_EQ(resumed.status, 130) << describe(resumed);
+    EXPECT_GT(std::stoi(run("tail -n +2 " + signal + "/metrics.csv | wc -l").out), std::stoi(rows));
+    EXPECT_TRUE(succeeded(run("cut -d, -f1 " + signal + "/metrics.csv | tail -n +2 | sort -cnu")));
+  }
+}
+
+TEST_F(Train, StopsAtOnceForASecondSignal) {
+  // One update takes minutes.
+  const auto stopped =
+      run("train --config tiny.toml --out a --set ppo.steps=4096 ppo.epochs=100 & pid=$!\n"
+          "until [ -e a/checkpoint.safetensors ]; do sleep 0.1; done; sleep 0.5\n"
+          "kill -INT $pid; sleep 0.5; kill -0 $pid || exit 9\n"
+          "kill -INT $pid; wait $pid");
+  EXPECT_EQ(stopped.status, 130) << describe(stopped);
+  EXPECT_TRUE(contains(stopped.err, "stopping after this update"));
+  EXPECT_EQ(stopped.err.find("is saved in"), std::string::npos) << stopped.err;
+  EXPECT_EQ(run("ls a | grep -c tmp").out, "0\n");
+}
+
+TEST_F(Train, OutlivesItsTerminalUnderNohup) {
+  const auto stopped = run(
+      "trap '' HUP; " + kEndless +
+      " --out a & pid=$!\nuntil [ -e a/checkpoint.safetensors ]; do sleep 0.1; done; sleep 0.5\n"
+      "kill -HUP $pid; sleep 0.5; kill -TERM $pid; wait $pid");
+  EXPECT_EQ(stopped.status, 143) << describe(stopped);
+}
+
+TEST_F(Train, NeedsNobodyWhoListens) {
+  for (const std::string away :
+       {"2>/dev/full", "2>&-", ">&-", "<&-", "<&- >&- 2>&-", "2> >(true)"}) {
+    run("rm -rf a");
+    ASSERT_TRUE(succeeded(run("train --config tiny.toml --out a " + away))) << away;
+    EXPECT_TRUE(run.has("a/checkpoint.safetensors")) << away;
+    EXPECT_EQ(run("grep -vc '^[0-9nan.e+,-]*$' a/metrics.csv").out, "1\n") << away;  // the header
+    EXPECT_TRUE(succeeded(run("train --config tiny.toml --out a --frames 256 --resume"))) << away;
+  }
+}
+
+TEST_F(Train, SaysThatItsResultCouldNotBeSaid) {
+  EXPECT_TRUE(refused(run("train --config tiny.toml --out a >/dev/full"), "standard output",
+                      "No space left on device"));
   EXPECT_TRUE(run.has("a/checkpoint.safetensors"));
+}
+
+TEST_F(Train, HasAFolderOfItsOwn) {
+  const auto second = run(
+      kEndless + " --out a & pid=$!\nuntil [ -e a/checkpoint.safetensors ]; do sleep 0.1; done\n" +
+      kEndless + " --out a; code=$?; " + kEndless +
+      " --out a --resume && code=0\nkill -9 $pid; wait $pid; exit $code");
+  EXPECT_TRUE(refused(second, "'a'", "at work"));
+  // The lock died with its process.
+  EXPECT_EQ(
+      run("timeout --preserve-status --signal=INT 1 " + kEndless + " --out a --resume").status,
+      130);
 }
 
 TEST_F(Train, StartsASecondPhaseFromTheWeightsOfAFirst) {
@@ -109,9 +174,72 @@ TEST_F(Train, RefusesToMixRunsInOneFolder) {
   EXPECT_TRUE(refused(run("train --config tiny.toml --out tiny.toml"), "tiny.toml", "folder"));
 }
 
-TEST_F(Train, RefusesToResumeWhereNothingIs) {
-  EXPECT_TRUE(refused(run("train --config tiny.toml --out a --resume"), "--resume",
-                      "a/checkpoint.safetensors"));
+TEST_F(Train, ResumesFromTheStartWhereNothingIsYet) {
+  ASSERT_TRUE(succeeded(run("train --config tiny.toml --out a")));
+  const auto fresh = run("train --config tiny.toml --out b --resume");
+  ASSERT_TRUE(succeeded(fresh));
+  EXPECT_TRUE(contains(fresh.err, "'b'"));
+  // Killed before its first checkpoint.
+  ASSERT_TRUE(succeeded(run("mkdir c; cp a/config.toml c")));
+  ASSERT_TRUE(succeeded(run("train --config tiny.toml --out c --resume")));
+  for (const std::string other : {"b", "c"}) {
+    EXPECT_TRUE(succeeded(
+        run("diff <(cut -d, -f1,3- a/metrics.csv) <(cut -d, -f1,3- " + other + "/metrics.csv)")));
+  }
+}
+
+TEST_F(Train, RefusesToResumeAnotherRun) {
+  ASSERT_TRUE(succeeded(run("train --config tiny.toml --out a")));
+  ASSERT_TRUE(succeeded(run("train --config tiny.toml --out b --seed 2")));
+  run("mkdir f; cp a/checkpoint.safetensors f");
+  EXPECT_TRUE(refused(run("train --config tiny.toml --out f --resume --set ppo.discount=0 seed=9"),
+                      "f/checkpoint.safetensors", "ppo.discount: 0.99", "seed: 1"));
+  EXPECT_TRUE(succeeded(run("train --config tiny.toml --out f --resume")));
+  run("cp b/checkpoint.safetensors a");
+  EXPECT_TRUE(refused(run("train --config tiny.toml --out a --resume"), "a/checkpoint.safetensors",
+                      "seed: 2"));
+  EXPECT_TRUE(
+      refused(run("train --config tiny.toml --out a --resume --init b/checkpoint.safetensors"),
+              "--resume", "--init"));
+}
+
+TEST_F(Train, GoesOnAndNotBack) {
+  ASSERT_TRUE(succeeded(run("train --config tiny.toml --out a --frames 512")));
+  EXPECT_TRUE(refused(run("train --config tiny.toml --out a --resume --frames 128"), "128", "512"));
+  const auto same = run("train --config tiny.toml --out a --resume --frames 512");
+  ASSERT_TRUE(succeeded(same));
+  EXPECT_EQ(same.err.find("learning rate"), std::string::npos) << same.err;
+  const auto longer = run("train --config tiny.toml --out a --resume --frames 5120");
+  ASSERT_TRUE(succeeded(longer));
+  EXPECT_TRUE(contains(longer.err, "the learning rate from 5e-05 to 0.000905"));
+}
+
+TEST_F(Train, RefusesOptionsThatAreEmpty) {
+  for (const std::string option :
+       {"--init", "--config", "--out", "--set", "--seed", "--frames", "--lcm-log", "--lcm-url"}) {
+    EXPECT_TRUE(refused(run("train --config tiny.toml --out a " + option + " \"$UNSET\""), option))
+        << option;
+    EXPECT_TRUE(refused(run("wordgaze train --config tiny.toml --out a " + option + "="), option))
+        << option;
+  }
+  EXPECT_FALSE(run.has("a"));
+}
+
+TEST_F(Train, TrainsInLevelsThatAskForLess) {
+  // Three actions; no mission.
+  for (const std::string id : {"MiniGrid-Dynamic-Obstacles-5x5-v0", "MiniGrid-Playground-v0"}) {
+    EXPECT_TRUE(succeeded(run("train --config tiny.toml --out " + id + " --set env=" + id)));
+    EXPECT_TRUE(succeeded(run("eval --checkpoint " + id + "/checkpoint.safetensors --episodes 3")));
+  }
+}
+
+TEST_F(Train, HelpsEvenWhereTheHandIsFull) {
+  EXPECT_TRUE(
+      succeeded(run("train --config tiny.toml --out a --set curriculum.half_done_start=1 "
+                    "env=BabyAI-PutNextS5N2Carrying-v0")));
+  EXPECT_TRUE(succeeded(run("train --config '" WORDGAZE_SOURCE_DIR
+                            "/configs/babyai/PutNextLocal.toml' --set curriculum.partial=0.3 "
+                            "--frames 40000 --out b")));
 }
 
 TEST_F(Train, RefusesDamagedAndForeignCheckpoints) {

@@ -53,6 +53,32 @@ TEST_F(Program, BadUseExitsWithTwoAndFailureWithOne) {
   }
 }
 
+TEST_F(Program, SaysThatStandardOutputIsFull) {
+  for (const std::string command :
+       {"wordgaze levels", "wordgaze --help", "wordgaze --version", "wordgaze train --help",
+        "bench --sim BabyAI-GoToLocal-v0 --steps 100 --envs 2"}) {
+    EXPECT_TRUE(refused(run(command + " >/dev/full"), "standard output", "No space left on device"))
+        << command;
+    EXPECT_TRUE(succeeded(run(command + " >&- 2>&- <&-"))) << command;
+  }
+}
+
+TEST_F(Program, IsQuietWhereTheReaderHasSeenEnough) {
+  const auto first = run("wordgaze levels | head -1; exit ${PIPESTATUS[1]}");
+  EXPECT_TRUE(succeeded(first));
+  EXPECT_EQ(first.err, "");
+}
+
+TEST_F(Program, StopsMeasuringForASignal) {
+  for (const std::string what :
+       {"--sim BabyAI-GoToLocal-v0", "--reset BabyAI-GoToLocal-v0", "--act tiny.toml"}) {
+    const auto stopped =
+        run("timeout --preserve-status --signal=INT 1 bench --seconds 3000 " + what);
+    EXPECT_EQ(stopped.status, 130) << describe(stopped);
+    EXPECT_TRUE(contains(stopped.err, "stopped by a signal"));
+  }
+}
+
 TEST_F(Program, ListsItsLevels) {
   const auto ids = run("wordgaze levels --ids");
   ASSERT_TRUE(succeeded(ids));

@@ -198,5 +198,15 @@ TEST(Trace, RefusesAnUnknownId) {
   EXPECT_THROW(replay(trace, details), std::invalid_argument);
 }
 
+TEST(Replay, OfNothingIsAnError) {
+  std::ostringstream details;
+  for (const std::string text : {"", "{\"t\":\"meta\"}\n"}) {
+    std::istringstream in(text);
+    EXPECT_THROW(replay(in, details), std::runtime_error) << text;
+  }
+  std::ifstream folder("/");
+  EXPECT_THROW(replay(folder, details), std::runtime_error);
+}
+
 }  // namespace
 }  // namespace wordgaze::trace

@@ -64,6 +64,62 @@ TEST(Curriculum, HalfDoneStartsOfPutNextHaveTheObjectInHand) {
   }
 }
 
+TEST(Curriculum, AFullHandTakesNothingMore) {
+  const Curriculum curriculum = half_done(1);
+  env::Environment environment("BabyAI-PutNextS5N2Carrying-v0");
+  core::Rng rng(1);
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    environment.reset(seed);
+    const auto carried = environment.world().carried;
+    EXPECT_FALSE(curriculum.prepare(environment, rng).helped);
+    EXPECT_EQ(environment.world().carried, carried);
+  }
+}
+
+/// All that can be switched on, for every level there is.
+TEST(Curriculum, PreparesEveryLevel) {
+  for (const double half_done_start : {0.0, 1.0}) {
+    for (const double partial : {0.0, 0.5}) {
+      const Curriculum curriculum({.pickup_first = false,
+                                   .half_done_start = half_done_start,
+                                   .half_done_end = half_done_start,
+                                   .single_clause = 0.3,
+                                   .stretch = 0.5,
+                                   .huddle = 0.3,
+                                   .partial = partial});
+      for (const std::string& id : babyai::level_ids()) {
+        env::Environment environment(id);
+        core::Rng rng(1);
+        for (std::uint64_t seed = 0; seed < 10; ++seed) {
+          environment.reset(seed);
+          EXPECT_NO_THROW(curriculum.prepare(environment, rng)) << id << ' ' << seed;
+          EXPECT_NO_THROW(environment.step(grid::Action::forward)) << id << ' ' << seed;
+        }
+      }
+    }
+  }
+}
+
+TEST(Curriculum, PutsTheFirstThatCanBeCarriedInTheHand) {
+  // Objects described by their color alone may be doors.
+  const Curriculum curriculum({.pickup_first = false,
+                               .balance = false,
+                               .half_done_start = 1,
+                               .half_done_end = 1,
+                               .stretch = 0,
+                               .huddle = 0,
+                               .partial = 1});
+  env::Environment environment("BabyAI-PutNextLocal-v0");
+  core::Rng rng(1);
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    environment.reset(seed);
+    EXPECT_TRUE(curriculum.prepare(environment, rng).helped);
+    const auto carried = environment.world().carried;
+    ASSERT_NE(carried, grid::kNothing);
+    EXPECT_NE(environment.meaning().object[0] & grid::only(carried), 0u);
+  }
+}
+
 TEST(Curriculum, LeavesTheEpisodesAloneThatItIsNotToHelp) {
   const Curriculum curriculum = half_done(0);
   env::Environment environment("Wordgaze-Two-N8-K4-v0");

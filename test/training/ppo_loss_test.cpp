@@ -23,11 +23,14 @@ const Case kCases[] = {{"Inside", -1.6, 0.7},
                        {"BelowAndBetter", -0.1, 0.7},
                        {"BelowAndWorse", -0.1, -0.7}};
 
-struct PpoLossCase : testing::TestWithParam<Case> {};
+struct PpoLossCase : testing::TestWithParam<Case> {
+  void expect_gradients(std::size_t actions) const;
+};
 
-TEST_P(PpoLossCase, GradientsMatchCentralDifferences) {
+/// With so many of the seven actions possible.
+void PpoLossCase::expect_gradients(std::size_t actions) const {
   const PpoLoss<double> loss{.clip = 0.2, .value_coefficient = 0.5, .entropy_coefficient = 0.03};
-  const PpoLoss<double>::Frame frame{3, GetParam().old_log_prob, GetParam().advantage, 0.4};
+  const PpoLoss<double>::Frame frame{2, GetParam().old_log_prob, GetParam().advantage, 0.4};
   Matrix<double> logits(7, 1), value(1, 1);
   logits << 0.3, -0.2, 0.5, 0.1, -0.7, 0.0, 0.2;
   value << 1.3;
@@ -35,13 +38,13 @@ TEST_P(PpoLossCase, GradientsMatchCentralDifferences) {
   double dvalue = 0;
   const double scale = 0.25;
   PpoLoss<double>::Sums sums;
-  const auto z = std::span<const double>(logits.data(), 7);
-  loss.add(frame, z, value(0), scale, dlogits, dvalue, sums);
+  const auto z = std::span<const double>(logits.data(), actions);
+  loss.add(frame, z, value(0), scale, std::span(dlogits).first(actions), dvalue, sums);
 
   const auto total = [&] {
     PpoLoss<double>::Sums s;
     double d = 0;
-    loss.add(frame, z, value(0), scale, unused, d, s);
+    loss.add(frame, z, value(0), scale, std::span(unused).first(actions), d, s);
     return scale * (s.policy + 0.5 * s.value - 0.03 * s.entropy);
   };
   nn::GradientError error;
@@ -49,6 +52,10 @@ TEST_P(PpoLossCase, GradientsMatchCentralDifferences) {
   nn::check_leaf("value", value, std::vector<double>{dvalue}, total, error);
   EXPECT_LE(error.worst, 1e-6) << error.where;
 }
+
+TEST_P(PpoLossCase, GradientsMatchCentralDifferences) { expect_gradients(7); }
+
+TEST_P(PpoLossCase, WhatIsNotPossibleHasNoPart) { expect_gradients(3); }
 
 INSTANTIATE_TEST_SUITE_P(Ratio, PpoLossCase, testing::ValuesIn(kCases),
                          [](const auto& c) { return std::string(c.param.name); });
@@ -64,6 +71,12 @@ TEST(PpoLoss, AClippedGainPullsNoFurther) {
   EXPECT_EQ(dlogits, std::vector<double>(7, 0.0));
   EXPECT_EQ(sums.clipped, 1);
   EXPECT_DOUBLE_EQ(sums.policy, -1.2);
+}
+
+TEST(MaskLoss, IsNothingWithoutWords) {
+  Vector<double> dlogits = Vector<double>::Zero(8);
+  EXPECT_EQ(mask_loss({}, 1, Vector<double>::Constant(8, 0.5), 1, dlogits), 0);
+  EXPECT_EQ(dlogits, Vector<double>::Zero(8));
 }
 
 TEST(MaskLoss, GradientMatchesCentralDifferences) {

@@ -83,6 +83,28 @@ TEST(Focus, NeverFalls) {
   EXPECT_EQ(second.params().attention.focus(0), 1);
 }
 
+TEST(Trainer, TrainsWhereFewerActionsArePossible) {
+  TrainConfig c = small(2);
+  c.env = "MiniGrid-Dynamic-Obstacles-5x5-v0";
+  Trainer trainer(c);
+  const auto impossible = [&] { return trainer.params().actor.output.bias.tail(4).eval(); };
+  const auto before = impossible();
+  for (int k = 0; k < 3; ++k) {
+    const Metrics m = trainer.update();
+    EXPECT_LE(m.entropy, std::log(3.0) + 1e-6);
+    EXPECT_EQ(m.skipped, 0);
+  }
+  EXPECT_EQ(impossible(), before);
+}
+
+TEST(Trainer, TrainsWithoutMissions) {
+  TrainConfig c = small(2);
+  c.env = "MiniGrid-Playground-v0";
+  c.model.task_attention = true;
+  Trainer trainer(c);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(trainer.update().skipped, 0);
+}
+
 struct TrainerVariant : testing::TestWithParam<TrainConfig> {};
 
 TEST_P(TrainerVariant, TheSameSeedRepeatsARunBitForBit) {

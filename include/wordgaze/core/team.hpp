@@ -3,10 +3,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <stdexcept>
+#include <system_error>
 #include <thread>
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "wordgaze/core/formatted.hpp"
+#include "wordgaze/core/require.hpp"
 
 namespace wordgaze {
 
@@ -14,16 +19,25 @@ namespace wordgaze {
 /// one starts no thread. Starting a job allocates nothing.
 class Team {
  public:
-  explicit Team(int size) : errors_(static_cast<std::size_t>(size)) {
-    for (int worker = 1; worker < size; ++worker) {
-      threads_.emplace_back([this, worker] { serve(worker); });
+  /// Throws std::invalid_argument for less than one worker, std::runtime_error where the system
+  /// does not give that many threads.
+  explicit Team(int size) : errors_(checked(size)) {
+    threads_.reserve(errors_.size());
+    try {
+      for (int worker = 1; worker < size; ++worker) {
+        threads_.emplace_back([this, worker] { serve(worker); });
+      }
+    } catch (const std::system_error& error) {
+      dismiss();
+      throw std::runtime_error(
+          formatted("a team of {} threads: only {} could be started ({}); ask for fewer threads",
+                    size, threads_.size() + 1, error.what()));
+    } catch (...) {
+      dismiss();
+      throw;
     }
   }
-  ~Team() {
-    stop_ = true;
-    start();
-    for (auto& thread : threads_) thread.join();
-  }
+  ~Team() { dismiss(); }
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
 
@@ -58,6 +72,15 @@ class Team {
   std::pair<int, int> share(int n, int k) const { return share(n, k, size()); }
 
  private:
+  static std::size_t checked(int size) {
+    require(size > 0, "a team of {} threads; expected at least 1", size);
+    return static_cast<std::size_t>(size);
+  }
+  void dismiss() {
+    stop_ = true;
+    start();
+    for (auto& thread : threads_) thread.join();
+  }
   void start() {
     generation_.fetch_add(1, std::memory_order_release);
     generation_.notify_all();

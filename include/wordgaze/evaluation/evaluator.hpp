@@ -21,6 +21,8 @@ struct Evaluation {
   bool greedy = false;
   int lanes = 64;          ///< of each worker
   std::int64_t first = 0;  ///< number of episode 0, as observers are told
+  /// Called by all workers now and then, if there is one; what it throws ends the evaluation.
+  std::function<void()> between_steps{};
 };
 
 struct EvaluationResult {

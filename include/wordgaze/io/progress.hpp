@@ -14,6 +14,8 @@ std::string duration_text(double seconds);
 
 /// How far a long job is: "frames 1200000 / 2000000 (60 %), 9870 / s, 1:21 left, " and the caller's
 /// details. On a terminal one line that is rewritten; else (a file, a pipe) a line now and then.
+/// It is decoration: where it cannot be written (a full disk, a terminal or pipe that is closed),
+/// nothing happens.
 class Progress {
  public:
   using Clock = std::function<double()>;  ///< seconds from any beginning

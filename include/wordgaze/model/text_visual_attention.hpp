@@ -23,7 +23,8 @@ namespace wordgaze::model {
 ///     A_i = softmax of beta (q_i . K / sqrt(d_k))                  one map a word
 ///     H_i = entropy of A_i,   w = softmax over the words of -H     a sharp map weighs more
 ///
-/// over the 49 cells and, in the product, nowhere. M says where the agent looks, s(M) scales O~
+/// over the 49 cells and, in the product, nowhere. A mission without words has no maps: M is 0 or,
+/// in the product, what S_0 alone says. M says where the agent looks, s(M) scales O~
 /// cell by cell; 0 is nowhere, S_0 the silent word (word_tables.hpp):
 ///
 ///     product    M = softmax(Z),  Z = S_0 + sum_i a_i ln A_i,  a_i = alpha_i w_i / sum alpha w
@@ -175,6 +176,7 @@ struct TextVisualAttention {
           k.maps.col(k.map(n, i)) = map;
           k.log_maps.col(k.map(n, i)) = log_map;
         }
+        if (sentence.length == 0) continue;
         auto w = weights.head(sentence.length).array();
         const auto h = entropy.head(sentence.length).array();
         w = (h.minCoeff() - h).exp();

@@ -85,6 +85,7 @@ struct Gru {
   /// dh_last [hidden, B]: gradient of h.
   static void backward(const Params& p, SequenceShape shape, In<S> active, In<S> dh_last, Cache& k,
                        Params& grads, Out<S> dproduct) {
+    if (shape.columns() == 0) return;  // of sequences without steps nothing is cached
     const Index hidden = p.hidden_weight.cols();
     auto dh = k.dh.leftCols(shape.batch);
     dh = dh_last;

@@ -20,6 +20,7 @@ inline void observe(const env::Environment& environment, Observation& observatio
   const babyai::Progress progress = environment.progress();
   std::ranges::copy(progress.completion(), observation.completion.begin());
   observation.sentence = environment.sentence();
+  observation.actions = environment.num_actions();
 }
 inline Observation observe(const env::Environment& environment) {
   Observation observation;

@@ -52,12 +52,15 @@ class NetworkPolicy final : public Policy {
 
   Matrix<float> policies_for(int lane, const model::CellMatrix& views) override {
     Question& q = ask(lane, views);
+    const auto possible = logits(lane).size();
     Matrix<float> policies = q.outputs.logits;
     for (Index n = 0; n < policies.cols(); ++n) {
-      const std::span<float> column(policies.col(n).data(), grid::kActions);
+      const std::span<float> column(policies.col(n).data(), possible);
       nn::Categorical<float>::log_softmax(column, column);
     }
-    return policies.array().exp();
+    policies = policies.array().exp();
+    policies.bottomRows(grid::kActions - static_cast<Index>(possible)).setZero();
+    return policies;
   }
 
   Saliency saliency(int lane, std::size_t action) override {

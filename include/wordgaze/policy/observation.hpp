@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "wordgaze/babyai/sentence.hpp"
+#include "wordgaze/grid/action.hpp"
 #include "wordgaze/grid/observation.hpp"
 #include "wordgaze/model/missions.hpp"
 
@@ -18,7 +19,8 @@ struct Observation {
   std::array<std::uint8_t, grid::kImageBytes> image{};
   /// c_t: 1 for sub-tasks that are done, 0 for the others and behind the last one.
   std::array<std::uint8_t, kMaxSubTasks> completion{};
-  babyai::Sentence sentence{};  ///< the mission
+  babyai::Sentence sentence{};   ///< the mission; without words there is nothing to look for
+  int actions = grid::kActions;  ///< that are possible: the first so many
 };
 
 }  // namespace wordgaze::policy

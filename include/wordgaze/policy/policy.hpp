@@ -43,18 +43,22 @@ class Policy {
   void begin(int lane) { frames_.keep(0, check(lane)) = 0; }
 
   /// What a lane sees now. The mission may change at any time. Throws std::invalid_argument, and
-  /// changes nothing, for a cell that the alphabet does not know, for a mission without words, and
-  /// for one of more sub-tasks than the completion vector has entries, if the agent reads it.
+  /// changes nothing, for a cell that the alphabet does not know, for a number of actions that the
+  /// network does not have, and for a mission of more sub-tasks than the completion vector has
+  /// entries, if the agent reads it.
   void observe(int lane, const Observation& observation);
 
-  /// A decision of each lane; sampler(lane, log-probabilities) chooses its action. The memory goes
-  /// on with it. Throws std::logic_error while a lane has observed nothing.
+  /// A decision of each lane; sampler(lane, log-probabilities) chooses among the actions that are
+  /// possible. The memory goes on with it. Throws std::logic_error while a lane has observed
+  /// nothing.
   template <class Sampler>
   std::span<const Decision> decide(Sampler&& sampler) {
     compute();
     for (int lane = 0; lane < lanes(); ++lane) {
-      std::array<float, grid::kActions> log_probs;
-      nn::Categorical<float>::log_softmax(logits(lane), log_probs);
+      const auto possible = logits(lane);
+      std::array<float, grid::kActions> numbers;
+      const auto log_probs = std::span(numbers).first(possible.size());
+      nn::Categorical<float>::log_softmax(possible, log_probs);
       const std::size_t action = sampler(lane, std::span<const float>(log_probs));
       decisions_[static_cast<std::size_t>(lane)] = {
           .action = action,
@@ -73,15 +77,17 @@ class Policy {
   }
 
   // Of the last decision, until the next observation:
+  /// One for each action that is possible.
   std::span<const float> logits(int lane) const {
-    return {outputs_.logits.col(lane).data(), grid::kActions};
+    return {outputs_.logits.col(lane).data(), actions_[static_cast<std::size_t>(lane)]};
   }
   /// M over the 49 cells; false, and nothing is written, without attention.
   virtual bool gaze(int lane, std::span<float, grid::kViewCells> map) const = 0;
   /// Where a lane looked: maps, weights, mask.
   virtual void attention(int lane, AttentionRecord& record) const = 0;
   /// The policies [7, N] of a lane had it seen these N views, a column of 49 codes each, in place
-  /// of its own. Mission, completion vector and memory are those of the decision.
+  /// of its own; 0 for actions that are not possible. Mission, completion vector and memory are
+  /// those of the decision.
   virtual Matrix<float> policies_for(int lane, const model::CellMatrix& views) = 0;
   /// How the logit of an action depends on each cell of the view as it reaches the memory, F_c [C];
   /// without attention that is the visual encoding itself.
@@ -149,6 +155,7 @@ class Policy {
   model::Missions fresh_missions_;
   Matrix<float> fresh_text_;
   model::Outputs<float> outputs_;
+  std::vector<std::size_t> actions_;  // that are possible, a number a lane
   std::vector<Decision> decisions_;
   std::vector<Kept> kept_;
   std::size_t kept_count_ = 0;  // of kept_ in use; the rest keep their memory
@@ -163,6 +170,7 @@ inline Policy::Policy(const model::Design& design, int lanes)
   frames_.resize(design.config, {1, lanes});
   frames_.mission_of.assign(static_cast<std::size_t>(lanes), kNoMission);
   kept_frames_.resize(design.config, {1, lanes});
+  actions_.assign(static_cast<std::size_t>(lanes), grid::kActions);
   decisions_.resize(static_cast<std::size_t>(lanes));
 }
 
@@ -172,9 +180,6 @@ inline int Policy::check(int lane) const {
 }
 
 inline void Policy::check_mission(const babyai::Sentence& sentence) const {
-  require(sentence.length > 0,
-          "Policy: a mission without words: there is nothing to look for. Levels without missions "
-          "are not for agents that follow them");
   const model::Config& config = design_->config;
   const auto& of = sentence.sub_task_of;
   const int sub_tasks = 1 + *std::max_element(of.begin(), of.begin() + sentence.length);
@@ -193,6 +198,8 @@ inline void Policy::observe(int lane, const Observation& observation) {
   int& mission = frames_.mission_of[static_cast<std::size_t>(check(lane))];
   model::Mission wanted{observation.sentence, {}};
   if (model::scans(design_->config)) wanted.done = observation.completion;
+  require(observation.actions >= 1 && observation.actions <= grid::kActions,
+          "Policy: {} actions; expected 1 to {}", observation.actions, grid::kActions);
   const bool another = mission == kNoMission || missions_[mission] != wanted;
   if (another) check_mission(observation.sentence);
   std::array<std::uint8_t, grid::kViewCells> cells;
@@ -201,6 +208,7 @@ inline void Policy::observe(int lane, const Observation& observation) {
     if (mission != kNoMission) missions_.release(mission);
     mission = missions_.acquire(wanted);
   }
+  actions_[static_cast<std::size_t>(lane)] = static_cast<std::size_t>(observation.actions);
   std::copy(cells.begin(), cells.end(), frames_.cells.col(lane).data());
   auto completion = frames_.completion.col(lane);
   for (Index i = 0; i < completion.size(); ++i) {

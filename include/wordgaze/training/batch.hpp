@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "wordgaze/core/types.hpp"
+#include "wordgaze/grid/action.hpp"
 #include "wordgaze/model/frames.hpp"
 #include "wordgaze/model/missions.hpp"
 #include "wordgaze/training/rollout.hpp"
@@ -27,6 +28,7 @@ template <std::floating_point S>
 struct BasicBatch {
   model::Frames<S> frames;
   model::Missions missions;           ///< that frames.mission_of counts in
+  int actions = grid::kActions;       ///< that were possible: the first so many
   std::vector<std::uint8_t> action;   ///< [N]
   std::vector<std::uint16_t> bright;  ///< [N] the true mask, by sub-task
   std::vector<S> log_prob;            ///< [N] of the action when it was taken

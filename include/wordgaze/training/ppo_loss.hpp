@@ -26,11 +26,13 @@ struct PpoLoss {
     double policy = 0, value = 0, entropy = 0, divergence = 0, clipped = 0;
   };
 
-  /// Adds `scale` times the gradient (1 / frames of the minibatch) to dlogits and dvalue (+=).
+  /// Adds `scale` times the gradient (1 / frames of the minibatch) to dlogits and dvalue (+=). The
+  /// logits are those of the actions that are possible.
   void add(const Frame& frame, std::span<const S> logits, S value, S scale, std::span<S> dlogits,
            S& dvalue, Sums& sums) const {
     using C = nn::Categorical<S>;
-    std::array<S, grid::kActions> log_p;
+    std::array<S, grid::kActions> numbers;
+    const auto log_p = std::span(numbers).first(logits.size());
     C::log_softmax(logits, log_p);
     const S entropy = C::entropy(log_p);
     const S log_ratio = log_p[frame.action] - frame.old_log_prob;

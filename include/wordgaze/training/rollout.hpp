@@ -6,6 +6,7 @@
 
 #include "wordgaze/babyai/sentence.hpp"
 #include "wordgaze/core/types.hpp"
+#include "wordgaze/grid/action.hpp"
 #include "wordgaze/model/cell_alphabet.hpp"
 #include "wordgaze/model/config.hpp"
 #include "wordgaze/nn/sequence.hpp"
@@ -17,6 +18,7 @@ namespace wordgaze::training {
 struct Rollout {
   nn::SequenceShape shape;                                ///< steps, lanes
   int chunk = 0;                                          ///< steps of a training sequence
+  int actions = grid::kActions;                           ///< of the level: the first so many
   model::CellMatrix cells;                                ///< [49, N]
   std::vector<std::vector<babyai::Sentence>> missions;    ///< of each lane, in their order
   std::vector<int> mission_of;                            ///< [N] index into those of its lane

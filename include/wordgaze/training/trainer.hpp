@@ -87,6 +87,7 @@ class BasicTrainer {
         rollout_(config.model, config.ppo),
         learner_(agent_, config_.ppo, make_losses<typename Agent::Scalar>(config.model, config.ppo),
                  fresh_params(), team_) {
+    rollout_.actions = level_.actions;
     for (int w = 0; w < team_.size(); ++w) {
       const auto [from, to] = team_.share(config.ppo.lanes, w);
       groups_.push_back(std::make_unique<LaneGroup>(policy(to - from), config_, level_, from));
