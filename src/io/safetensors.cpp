@@ -29,7 +29,7 @@ constexpr std::string_view kChecksum = "wordgaze.crc32";
 constexpr std::string_view kNoChecksum = "00000000";  // in its place while the checksum is computed
 constexpr std::size_t kLengthBytes = 8;
 constexpr std::size_t kLargestHeader = 16 << 20;
-constexpr std::size_t kMostNames = 10'000;  // in one object of the header: the parser walks them
+constexpr std::size_t kMostNames = 2000;  // in one object of the header: the parser walks them
 
 /// Names of the number types, in the order of Tensor::Values.
 constexpr std::array<std::string_view, 4> kTypes{"F32", "F64", "I64", "U8"};

@@ -150,9 +150,9 @@ TEST(Temporaries, OfProcessesThatAreGoneAreCleared) {
   if (gone == 0) ::_exit(0);
   ASSERT_EQ(::waitpid(gone, nullptr, 0), gone);
   const std::array left{temporary_of(folder / "a", gone), temporary_of(folder / "b", gone)};
-  const std::array kept{temporary_of(folder / "a", ::getpid()),
+  const std::array kept{folder / "a",  // first: writing it takes the name of this process
+                        temporary_of(folder / "a", ::getpid()),
                         temporary_of(folder / "another", gone),
-                        folder / "a",
                         folder / "a.tmp",
                         folder / "a..tmp",
                         folder / "a.0.tmp",

@@ -210,8 +210,8 @@ TEST_F(Safetensors, RefusesHeadersWithoutEnd) {
                            i == 0 ? "" : ",", i);
   }
   EXPECT_TRUE(contains(refusal(file_of("{" + entries + "}", "")), "or truncated"));
-  entries.resize(entries.find(R"(,"20000":)"));
-  EXPECT_TRUE(contains(refusal(file_of("{" + entries + "}", "")), "more than 10000 names"));
+  entries.resize(entries.find(R"(,"2500":)"));
+  EXPECT_TRUE(contains(refusal(file_of("{" + entries + "}", "")), "more than 2000 names"));
   EXPECT_TRUE(contains(refusal(file_of(std::string(1'000'000, '['), "")), "nested too deeply"));
   const std::string novel(1'000'000, 'n');
   EXPECT_LT(refusal(file_of("{\"" + novel + "\":3}", "")).size(), 1000u);

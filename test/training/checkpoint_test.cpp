@@ -11,6 +11,7 @@
 
 #include "support/messages.hpp"
 #include "support/temporary_folder.hpp"
+#include "wordgaze/io/config_file.hpp"
 #include "wordgaze/io/file.hpp"
 #include "wordgaze/policy/trained_agent.hpp"
 
