@@ -17,6 +17,7 @@
 #include "wordgaze/babyai/level.hpp"
 #include "wordgaze/bot/policy.hpp"
 #include "wordgaze/core/require.hpp"
+#include "wordgaze/io/file.hpp"
 #include "wordgaze/io/file_stream.hpp"
 #include "wordgaze/io/output_check.hpp"
 #include "wordgaze/io/stop_signals.hpp"

@@ -56,7 +56,7 @@ struct Config {
   double sharpness_start = 8;        ///< of the words' maps: their inverse temperature, at first
   double sharpness = 32;             ///< and when the gaze has focused
   double nowhere = 0.68;             ///< score of nowhere, as a share of a word's best match
-  double word_choice_start = 2;      ///< slope of the gates between type and color, at first
+  double word_choice_start = 0.3;    ///< slope of the gates between type and color, at first
   double word_choice = 60;           ///< and when the gaze has focused
   double score_cost_start = 2.5e-7;  ///< weight in the loss of what words say, squared, at first
   double score_cost = 2e-8;          ///< and when the gaze has focused
