@@ -14,8 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& path, int error) {
-  throw std::runtime_error(fmt::format("cannot write '{}': {}", path.string(),
-                                       std::generic_category().message(error)));
+  throw std::runtime_error(
+      fmt::format("cannot write '{}': {}", path.string(), std::generic_category().message(error)));
 }
 
 bool reaches_the_disk(const fs::path& path) {

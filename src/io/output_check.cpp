@@ -17,8 +17,12 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Where a path leads, through links, be there a file or not.
-fs::path destination(const fs::path& path) {
+fs::path destination(fs::path path) {
   std::error_code error;
+  constexpr int kMostLinks = 40;  // as the system has it; they may lead to what is not there yet
+  for (int links = 0; links < kMostLinks && fs::is_symlink(path, error); ++links) {
+    path = path.parent_path() / fs::read_symlink(path, error);
+  }
   fs::path end = fs::weakly_canonical(path, error);
   return error ? path : end;
 }
@@ -58,8 +62,8 @@ void check_writable(const NamedPath& output) {
 void check_outputs(std::span<const NamedPath> outputs, std::span<const NamedPath> inputs) {
   const auto differs = [](const NamedPath& output, const NamedPath& other) {
     require(other.path.empty() || !same_file(output.path, other.path),
-            "{} '{}' is the file of {}, '{}': it would be overwritten; give another",
-            output.option, output.path.string(), other.option, other.path.string());
+            "{} '{}' is the file of {}, '{}': it would be overwritten; give another", output.option,
+            output.path.string(), other.option, other.path.string());
   };
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     if (outputs[i].path.empty()) continue;

@@ -33,16 +33,19 @@ void secure_standard_streams() {
 
 void print(std::FILE* stream, std::string_view text) noexcept {
   errno = 0;
-  const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size() &&
-                       std::fflush(stream) == 0;
+  const bool written =
+      std::fwrite(text.data(), 1, text.size(), stream) == text.size() && std::fflush(stream) == 0;
   if (!written && stream == stdout && output_error == 0) output_error = errno != 0 ? errno : EIO;
 }
 
 bool flush_standard_output() {
   errno = 0;
-  const bool flushed = std::cout.flush().good() && std::fflush(stdout) == 0;
-  if (output_error == 0 && !(flushed && std::ferror(stdout) == 0)) {
-    output_error = errno != 0 ? errno : EIO;
+  std::cout.flush();
+  const bool flushed = std::fflush(stdout) == 0;
+  if (output_error == 0 && !(flushed && std::cout && std::ferror(stdout) == 0)) {
+    // The cause of an earlier failure is forgotten by now, but what failed once fails again.
+    const bool known = errno != 0 || ::write(STDOUT_FILENO, "\n", 1) != 1;
+    output_error = known && errno != 0 ? errno : EIO;
   }
   if (output_error == EPIPE) return false;
   if (output_error != 0) {

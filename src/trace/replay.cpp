@@ -169,10 +169,10 @@ ReplayReport replay(std::istream& in, std::ostream& details) {
       fail(number, error.what());
     }
   }
-  if (in.bad()) throw std::runtime_error("trace: it cannot be read");
+  if (in.bad()) throw std::runtime_error("the trace cannot be read");
   const ReplayReport report = replay.report();
   if (report.resets == 0) {
-    throw std::runtime_error("trace: no episode begins in it, so nothing was compared");
+    throw std::runtime_error("no episode begins in the trace, so nothing was compared");
   }
   return report;
 }

@@ -45,8 +45,9 @@ std::string schedule_changes(const TrainConfig& before, const TrainConfig& now,
   compare("the entropy bonus", a.entropy_coefficient, b.entropy_coefficient);
   compare("the focus of the gaze", focus_at(before, frames), focus_at(now, frames));
   if (changes.empty()) return changes;
-  return fmt::format("frames = {} in place of {}: schedules run over all frames, so here changes {}",
-                     now.frames, before.frames, changes);
+  return fmt::format(
+      "frames = {} in place of {}: schedules run over all frames, so here changes {}", now.frames,
+      before.frames, changes);
 }
 
 }  // namespace wordgaze::training

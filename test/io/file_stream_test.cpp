@@ -55,8 +55,8 @@ TEST(FileStream, WritesThroughALink) {
 
 TEST(FileStream, SaysWhatCannotBeWritten) {
   const TemporaryFolder folder;
-  EXPECT_TRUE(contains(message_of<std::runtime_error>([&] { FileStream(folder / "no/a"); }),
-                       "no/a"));
+  EXPECT_TRUE(
+      contains(message_of<std::runtime_error>([&] { FileStream(folder / "no/a"); }), "no/a"));
   write_file(folder / "a", "old");
   {
     const SmallDisk disk(1000);

@@ -46,8 +46,8 @@ TEST(FolderLock, DiesWithItsProcess) {
 
 TEST(FolderLock, SaysWhereItCannotBe) {
   const TemporaryFolder folder;
-  EXPECT_TRUE(contains(message_of<std::runtime_error>([&] { FolderLock lock(folder / "none"); }),
-                       "none"));
+  EXPECT_TRUE(
+      contains(message_of<std::runtime_error>([&] { FolderLock lock(folder / "none"); }), "none"));
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ void demand(bool condition) {
 }
 
 bool is_null_device(int descriptor) {
-  struct stat is {}, null {};
+  struct stat is {
+  }, null{};
   return ::fstat(descriptor, &is) == 0 && ::stat("/dev/null", &null) == 0 &&
          is.st_rdev == null.st_rdev;
 }
@@ -78,6 +79,7 @@ TEST(StandardStreams, AFullDiskIsNoticedAtTheEnd) {
   };
   notice([] { print(stdout, "lost"); });
   notice([] { std::cout << "lost"; });
+  notice([] { std::cout << "lost" << std::endl; });
   notice([] { std::fputs("lost", stdout); });
 }
 

@@ -156,12 +156,9 @@ TEST(Policy, DecidesAmongTheActionsThatArePossible) {
   });
   EXPECT_EQ(choices, (std::vector<std::size_t>{3, grid::kActions}));
   EXPECT_EQ(policy.logits(0).size(), 3u);
-  EXPECT_EQ(decisions[1].log_prob, [&] {
-    const auto z = all.logits(1);
-    std::array<float, grid::kActions> log_probs;
-    nn::Categorical<float>::log_softmax(z, log_probs);
-    return log_probs.back();
-  }());
+  std::array<float, grid::kActions> all_log_probs;
+  nn::Categorical<float>::log_softmax(all.logits(1), all_log_probs);
+  EXPECT_EQ(decisions[1].log_prob, all_log_probs.back());
   EXPECT_EQ(decisions[0].value, unmasked[0].value);
   // Of three equally likely actions none could say more than log 3.
   EXPECT_LE(decisions[0].entropy, std::log(3.0f) + 1e-6f);

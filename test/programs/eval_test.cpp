@@ -236,8 +236,8 @@ TEST_F(Eval, EndsWellInLevelsOfEveryKind) {
         "MiniGrid-MemoryS7-v0", "MiniGrid-GoToDoor-5x5-v0", "BabyAI-PutNextS5N2Carrying-v0",
         "BabyAI-BossLevel-v0", "Wordgaze-Eight-N8-K8-v0"}) {
     for (const std::string& checkpoint : {std::string("ckpt"), model}) {
-      EXPECT_TRUE(succeeded(
-          run("eval --checkpoint " + checkpoint + " --episodes 1 --transparency --env " + id)))
+      EXPECT_TRUE(
+          succeeded(run("eval --checkpoint " + checkpoint + " --episodes 1 --greedy --env " + id)))
           << id;
     }
   }

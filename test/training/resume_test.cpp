@@ -22,7 +22,8 @@ TEST(Resume, IsOfTheSameRun) {
   EXPECT_NO_THROW(check_same_run("'a'", before, now));
   now.ppo.discount = 0;
   now.seed = 9;
-  const auto message = message_of<std::invalid_argument>([&] { check_same_run("'a'", before, now); });
+  const auto message =
+      message_of<std::invalid_argument>([&] { check_same_run("'a'", before, now); });
   for (const char* part : {"'a'", "ppo.discount: 0.99", "seed: 1"}) {
     EXPECT_TRUE(contains(message, part));
   }

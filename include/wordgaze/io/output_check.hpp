@@ -12,8 +12,8 @@ struct NamedPath {
 };
 
 /// Before the work, so that its result has a place to go. Throws std::runtime_error where an output
-/// cannot be written, std::invalid_argument where it is the same file as an input or another output,
-/// by whatever name; devices such as /dev/null may be named twice. No file is changed.
+/// cannot be written, std::invalid_argument where it is the same file as an input or another
+/// output, by whatever name; devices such as /dev/null may be named twice. No file is changed.
 void check_outputs(std::span<const NamedPath> outputs, std::span<const NamedPath> inputs);
 
 }  // namespace wordgaze::io
