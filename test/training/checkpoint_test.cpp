@@ -114,10 +114,11 @@ TEST_F(Checkpoint, RefusesCountersOutOfTheirRanges) {
         EXPECT_TRUE(contains(refusal([&] { values<std::int64_t>(name)[k] = value; }), name));
       }
     }
-    EXPECT_TRUE(contains(refusal([&] {
-                           for (auto& value : values<std::int64_t>(name)) value = -1;
-                         }),
-                         formatted("{}[0] is -1; expected 0 to ", name)));
+    const auto message = refusal([&] {
+      for (auto& value : values<std::int64_t>(name)) value = -1;
+    });
+    EXPECT_TRUE(contains(message, formatted(": {}[", name)));
+    EXPECT_TRUE(contains(message, "] is -1; expected 0 to "));
   }
   EXPECT_TRUE(contains(refusal([&] { values<std::int64_t>("train.counters")[1] += 1; }),
                        "train.counters[1] is 73; expected 72 to 72"));

@@ -1,6 +1,5 @@
 #pragma once
 #include <charconv>
-#include <concepts>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -10,8 +9,7 @@ namespace wordgaze {
 /// The number that a text is, all of it, as programs write numbers: without spaces and without a
 /// plus sign. None for anything else, and for what the type cannot hold.
 template <class Number>
-requires(std::integral<Number> || std::floating_point<Number>) std::optional<Number> number_in(
-    std::string_view text) {
+std::optional<Number> number_in(std::string_view text) {
   Number number{};
   const char* end = text.data() + text.size();
   const auto [behind, error] = std::from_chars(text.data(), end, number);
