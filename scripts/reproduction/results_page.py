@@ -256,9 +256,9 @@ def transparency_tables(results):
                 m = figures[kind]
                 if m["pointing"] is not None:
                     maps.append([row["name"], str(gaze["objects"]), gaze["policy"], name, share(m["pointing"]), share(m["chance"]),
-                                 *(share(v) for v in m["mass"].values()),
+                                 *(share(m["mass"].get(role)) for role in ("target", "distractor", "empty", "wall", "nowhere")),
                                  share(m.get("spotlight", {}).get("target")),
-                                 share(m["nowhere_out_of_view"]), share(m["deletion"]),
+                                 share(m.get("nowhere_out_of_view")), share(m["deletion"]),
                                  share(m["deletion_others"]), share(m["insertion"]),
                                  share(m["insertion_others"])])
             if figures["words"]["content_weight"]:
@@ -301,6 +301,16 @@ def unfinished(results):
                      for seeds, rows in missing.items())
 
 
+def of_earlier_commits(results):
+    """The rows that were not made with the commit of the page."""
+    earlier = {}
+    for row in results.rows:
+        if row["commit"] != results.data["machine"]["commit"]:
+            earlier.setdefault(row["commit"], []).append(f"`{row['name']}`")
+    return "\n\n".join(f"**Of an earlier commit**, {commit}, and its recipe: {', '.join(names)}."
+                       for commit, names in earlier.items())
+
+
 def write_page(folder):
     results = Results(json.loads((folder / "data/results.json").read_text()))
     drawn = capture([SYSTEM_PYTHON, pathlib.Path(__file__).with_name("curves.py"), folder]).split()
@@ -324,7 +334,7 @@ def write_page(folder):
         f"programs at a time: {data['jobs']}) on {machine['cores']} cores of {machine['processor']}; "
         f"commit {machine['commit']}, {machine['compiler']}, `{machine['flags']}`."
         + (f" **Smaller than the full run: {smaller}.**" if smaller else ""))
-    sections.append(unfinished(results))
+    sections += [unfinished(results), of_earlier_commits(results)]
     reached = targets(results)
     section("Targets", reached and table(["target", "measured", ""], reached))
     section("Grounding", "One clause, trained in 8x8 with four objects only (`Wordgaze-One-N8-K4-v0`). The paper reports, "
