@@ -140,7 +140,7 @@ TEST_P(LearnerPhase, FollowsTheGradientOfTheWholeLoss) {
   const model::Config config = tiny(GetParam());
   const PpoConfig ppo = whole_rollout_at_once();
   const Network agent(config, model::CellAlphabet::one_room());
-  core::Rng rng(5);
+  core::Rng rng(7);  // no ratio within a step of the clip, where the loss has a corner
   const auto params = agent.initialize(rng);
   const Rollout rollout = drawn_rollout(config, ppo, rng);
   const Rates rates{.learning_rate = 0, .task_learning_rate = 0, .entropy_coefficient = 0.05};
