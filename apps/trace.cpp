@@ -48,7 +48,9 @@ void parse_seeds(const std::string& text, trace::RecordOptions& options) {
 
 int replay(const std::string& path) {
   std::ifstream file;
-  if (path != "-") {
+  if (path == "-") {
+    std::ios::sync_with_stdio(false);  // nobody else reads it: in large pieces, then
+  } else {
     io::expect_regular(path);
     file.open(path);
     if (!file) throw std::runtime_error(fmt::format("cannot read '{}'", path));

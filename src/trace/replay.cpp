@@ -137,14 +137,14 @@ class Replay {
 
 /// As std::getline, of lines that end.
 bool next_line(std::istream& in, std::string& line, std::int64_t number) {
-  constexpr std::size_t kLongest = 64 << 20;  // a grid of the largest level is a tenth of it
+  constexpr std::size_t kLongest = 16 << 20;  // a grid of the largest level is a third of it
   constexpr auto kEnd = std::istream::traits_type::eof();
   line.clear();
   auto c = in.rdbuf()->sbumpc();
   if (c == kEnd) return false;
   for (; c != kEnd && c != '\n'; c = in.rdbuf()->sbumpc()) {
     line += static_cast<char>(c);
-    if (line.size() > kLongest) fail(number, "longer than 64 MiB");
+    if (line.size() > kLongest) fail(number, "longer than 16 MiB");
   }
   return true;
 }
