@@ -158,7 +158,6 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
 
   // Every level is made before the first episode: a typing error should not cost an hour.
   const auto levels = settings(a, babyai::find_level(a.env.empty() ? config.env : a.env));
-  if (!a.pictures.empty()) std::filesystem::create_directories(a.pictures);
   a.listeners.checkpoint = a.checkpoint;
   apps::Listeners listeners(a.listeners);
   if (!a.pictures.empty()) apps::remove_old_pictures(a.pictures);
@@ -225,6 +224,7 @@ void evaluate_policy(const Arguments& a, nlohmann::ordered_json& report) {
 }
 
 int run(const Arguments& a) {
+  if (!a.pictures.empty()) std::filesystem::create_directories(a.pictures);  // others may lie there
   io::check_outputs(
       std::array{io::NamedPath{"--json", a.json}, io::NamedPath{"--lcm-log", a.listeners.log}},
       std::array{io::NamedPath{"--checkpoint", a.checkpoint}});

@@ -104,7 +104,7 @@ TEST_F(Hostile, NumbersThatAreNone) {
                                 "--policy-seed"));
   }
   for (const char* seeds :
-       {"-1:2", "0:18446744073709551616", "''", "'0:1 x'", "3", ":", "2:1", "0:"}) {
+       {"-1:2", "0:18446744073709551616", "' '", "'0:1 x'", "3", ":", "2:1", "0:"}) {
     EXPECT_TRUE(refused_at_once(std::string("trace --env BabyAI-GoToObj-v0 --seeds ") + seeds,
                                 "expected A:B"));
   }
