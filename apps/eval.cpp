@@ -172,8 +172,8 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
                                   .episodes = a.episodes,
                                   .seed = a.seed,
                                   .greedy = greedy,
-                                   .first = std::int64_t{evaluations} * a.episodes,
-                                   .between_steps = io::StopSignals::check};
+                                  .first = std::int64_t{evaluations} * a.episodes,
+                                  .between_steps = io::StopSignals::check};
       const char* policy = greedy ? "greedy" : "sampled";
       listeners.on_run(fmt::format("eval-{}-{}", ++evaluations, policy));
       std::optional<evaluation::Transparency> transparency;

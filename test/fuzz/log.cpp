@@ -1,5 +1,5 @@
-// LCM logs to go on with: damaged ones are refused and stay as they are, of a torn one the tail is cut.
-// Each event of the log that is left is followed by another or by the end.
+// LCM logs to go on with: damaged ones are refused and stay as they are, of a torn one the tail is
+// cut. Each event of the log that is left is followed by another or by the end.
 #include "fuzz.hpp"
 #include "lcm/event_log.hpp"
 #include "wordgaze/io/file.hpp"
