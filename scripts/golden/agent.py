@@ -131,11 +131,16 @@ def encode_text(p, mission, mask):
     return h[0]
 
 
+def look_of_objects(p, config):
+    """O~ of each object [C, objects]"""
+    objects = config.get("objects", OBJECTS)
+    return torch.cat([encode_view(p, config, [code] * VIEW * VIEW)[:, :1] for code in objects], dim=1)
+
+
 def effects_of(p, config):
     """What each word of the vocabulary says of the type and of the color of each object, two of
     [objects, V]: the mean over the objects that share it, less the mean over all."""
-    objects = config.get("objects", OBJECTS)
-    codes = torch.cat([encode_view(p, config, [code] * VIEW * VIEW)[:, :1] for code in objects], dim=1)
+    objects, codes = config.get("objects", OBJECTS), look_of_objects(p, config)
     queries = p["attention.query"] @ p["words"]
     raw = (p["attention.key"] @ codes).T @ queries / math.sqrt(config["key_size"])
     alike = [torch.tensor([[float(a[k] == b[k]) for b in objects] for a in objects], dtype=raw.dtype)
@@ -167,7 +172,7 @@ def look(p, config, image, view, mission):
                 scores[i, cell] = said[objects.index(tuple(code)), word]
         scores[i, -1] = nowhere[word]
     beta = geometric(config["sharpness_start"], config["sharpness"], config["focus"])
-    silent = torch.cat([p["attention.silent"] @ view, torch.zeros(1)])
+    silent = p["attention.silent"] @ torch.cat([view, look_of_objects(p, config).mean(1, True)], dim=1)
     return torch.log_softmax(beta * scores, dim=1), silent
 
 

@@ -16,7 +16,7 @@ struct LexiconTest : testing::Test {
   Design design{{}, CellAlphabet::one_room()};
   Lexicon<double>::Tables tables;
   WordTables<double> words;
-  Matrix<double> scores = random_matrix(22, babyai::kVocabularySize);
+  Matrix<double> scores = random_matrix(22, babyai::kVocabularySize + 1);
 
   LexiconTest() {
     Lexicon<double>::resize(design, tables);
@@ -34,7 +34,7 @@ struct LexiconTest : testing::Test {
 
 TEST_F(LexiconTest, AWordSaysNothingOfWhatIsNoObject) {
   speak(0.5);
-  EXPECT_EQ(scores.topRows(kFirstObject).cwiseAbs().maxCoeff(), 0);
+  EXPECT_EQ(scores.topLeftCorner(kFirstObject, kSilentWord).cwiseAbs().maxCoeff(), 0);
 }
 
 TEST_F(LexiconTest, WhatItSaysOfTypesAndColorsAddsUp) {
@@ -69,8 +69,9 @@ TEST_F(LexiconTest, UndecidedItSpeaksHalfOfBoth) {
   Matrix<double> before = scores;
   speak(1);
   before.row(21).setZero();
-  const Matrix<double> both = (tables.projector[0] + tables.projector[1]) * before.topRows(21) / 2;
-  EXPECT_LT((scores.topRows(21) - both).cwiseAbs().maxCoeff(), 1e-12);
+  const auto words_of = [](const Matrix<double>& m) { return m.topLeftCorner(21, kSilentWord); };
+  const Matrix<double> both = (tables.projector[0] + tables.projector[1]) * words_of(before) / 2;
+  EXPECT_LT((words_of(scores) - both).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST_F(LexiconTest, NowhereIsAShareOfTheBestMatch) {
@@ -78,6 +79,13 @@ TEST_F(LexiconTest, NowhereIsAShareOfTheBestMatch) {
   for (int v = 0; v < babyai::kVocabularySize; ++v) {
     EXPECT_NEAR(scores(21, v), design.config.nowhere * scores.col(v).head(21).maxCoeff(), 1e-12);
   }
+}
+
+TEST_F(LexiconTest, ToTheSilentWordNowhereIsAsAnObjectIsInTheMean) {
+  const Vector<double> before = scores.col(kSilentWord).head(21);
+  speak(0.3);
+  EXPECT_EQ(scores.col(kSilentWord).head(21), before);
+  EXPECT_NEAR(scores(21, kSilentWord), before.tail(21 - kFirstObject).mean(), 1e-12);
 }
 
 TEST_F(LexiconTest, WordsThatSayNothingAtAllAreNoTrouble) {

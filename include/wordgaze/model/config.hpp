@@ -1,7 +1,6 @@
 #pragma once
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 #include <tuple>
 
@@ -50,17 +49,17 @@ struct Config {
   int task_words = 32;   ///< outputs of the Task Attention Module: longest mission it takes
   int sub_tasks = 16;    ///< length of the completion vector c_t
   Gaze gaze = Gaze::product;
-  double entropy_base = std::numbers::e;  ///< of the logarithm in the row entropies H (eq. 2)
-  double gaze_floor = 0.1;                ///< f: what s(M) leaves of the darkest cells
-  double object_prior = 2;                ///< initial score of objects over other cells; 0: none
+  double entropy_base = 7;  ///< of the logarithm in the row entropies H (eq. 2)
+  double gaze_floor = 0.1;  ///< f: what s(M) leaves of the darkest cells
+  double object_prior = 2;  ///< initial score of objects over other cells; 0: none
   // Of the product:
   double sharpness_start = 8;        ///< of the words' maps: their inverse temperature, at first
   double sharpness = 32;             ///< and when the gaze has focused
-  double nowhere = 0.45;             ///< score of nowhere, as a share of a word's best match
+  double nowhere = 0.68;             ///< score of nowhere, as a share of a word's best match
   double word_choice_start = 2;      ///< slope of the gates between type and color, at first
   double word_choice = 60;           ///< and when the gaze has focused
   double score_cost_start = 2.5e-7;  ///< weight in the loss of what words say, squared, at first
-  double score_cost = 3e-8;          ///< and when the gaze has focused
+  double score_cost = 2e-8;          ///< and when the gaze has focused
   // Of the sum:
   double gaze_exponent = 2;  ///< p in s(M) = f + (1 - f) (M / max M)^p
   double encoder_bias = 1;   ///< initial bias of the visual encoder: near-linear at the start
@@ -93,7 +92,9 @@ struct Config {
                 "how the maps of the words become M: their product, which says \"red\" and "
                 "\"ball\" and can say nowhere, or the paper's sum"},
         Setting{"entropy_base", &C::entropy_base,
-                "base of the logarithm in the row entropies (eq. 2); 2.718281828 or 49", 1.1, 1e6},
+                "base of the logarithm in the row entropies (eq. 2): the larger, the more even the "
+                "weights",
+                1.1, 1e6},
         Setting{"gaze_floor", &C::gaze_floor,
                 "f: what s(M) leaves of the darkest cells; 0: nothing", 0, 1},
         Setting{"object_prior", &C::object_prior,

@@ -18,9 +18,11 @@ namespace wordgaze::model {
 /// on the color; what is left, and scores on what is no object, is not the word's to say. A gate
 /// that is learned says of which of the two a word speaks, and hardens as the gaze focuses. So
 /// "red" cannot learn to avoid balls where red balls are never named. And a word scores nowhere by
-/// how well it could be matched: what matches less is not in view.
+/// how well it could be matched: what matches less is not in view. The silent word scores nowhere
+/// as the mean object: it may darken the floor, but how well an object has to match is for
+/// `nowhere` alone to say.
 ///
-/// shapes   scores [codes + 1, V]: the last row is nowhere
+/// shapes   scores [codes + 1, V + 1]: the last row is nowhere, the last column the silent word
 template <std::floating_point S>
 struct Lexicon {
   static constexpr int kAttributes = 2;  ///< type, color
@@ -29,6 +31,7 @@ struct Lexicon {
     std::array<Matrix<S>, kAttributes> projector;  // [codes, codes] onto what an attribute says
     std::array<Matrix<S>, kAttributes> effect;     // [codes, V] of the raw scores
     std::array<Matrix<S>, kAttributes> scratch;    // [codes, V]
+    Vector<S> objects;                             // [codes] 1 / number of objects, or 0
     Vector<S> of_type;                            ///< [V] share of the type; the color has the rest
     Eigen::Array<Index, Eigen::Dynamic, 1> best;  ///< [V] the code that matches a word best
   };
@@ -38,6 +41,10 @@ struct Lexicon {
     t.of_type.setZero(babyai::kVocabularySize);
     t.best.setZero(babyai::kVocabularySize);
     const auto objects = static_cast<S>(count(codes, [](const auto&) { return true; }));
+    t.objects.setZero(codes.size());
+    for (int i = 0; i < codes.size(); ++i) {
+      if (is_object(codes[i])) t.objects(i) = S(1) / objects;
+    }
     for (int a = 0; a < kAttributes; ++a) {
       t.projector[a].setZero(codes.size(), codes.size());
       for (auto* m : {&t.effect[a], &t.scratch[a]}) {
@@ -51,7 +58,7 @@ struct Lexicon {
         const auto share = static_cast<S>(1.0 / static_cast<double>(count(codes, alike)));
         for (int j = 0; j < codes.size(); ++j) {
           if (!is_object(codes[j])) continue;
-          t.projector[a](i, j) = (alike(codes[j]) ? share : S(0)) - S(1) / objects;
+          t.projector[a](i, j) = (alike(codes[j]) ? share : S(0)) - t.objects(j);
         }
       }
     }
@@ -60,13 +67,14 @@ struct Lexicon {
   /// On entry the first rows of scores are raw.
   static void forward(const Config& c, const WordTables<S>& words, Tables& t, Out<S> scores) {
     const Index codes = scores.rows() - 1;
-    auto spoken = scores.topRows(codes);
+    scores(codes, kSilentWord) = t.objects.dot(scores.col(kSilentWord).head(codes));
+    auto spoken = scores.topLeftCorner(codes, kSilentWord);
     for (int a = 0; a < kAttributes; ++a) t.effect[a].noalias() = t.projector[a] * spoken;
     t.of_type =
         (S(1) + (-slope(c, words) * words.choice.row(0).transpose().array()).exp()).inverse();
     spoken = t.effect[0] * t.of_type.asDiagonal();
     spoken += t.effect[1] * (S(1) - t.of_type.array()).matrix().asDiagonal();
-    for (Index v = 0; v < scores.cols(); ++v) {
+    for (Index v = 0; v < spoken.cols(); ++v) {
       scores(codes, v) = static_cast<S>(c.nowhere) * spoken.col(v).maxCoeff(&t.best(v));
     }
   }
@@ -76,12 +84,13 @@ struct Lexicon {
   static void backward(const Config& c, const WordTables<S>& words, const Tables& t, Tables& dt,
                        Out<S> dscores, WordTables<S>& dwords) {
     const Index codes = t.projector[0].rows();
-    for (Index v = 0; v < dscores.cols(); ++v) {
-      dscores(t.best(v), v) += static_cast<S>(c.nowhere) * dscores(codes, v);
+    dscores.col(kSilentWord).head(codes) += dscores(codes, kSilentWord) * t.objects;
+    auto dspoken = dscores.topLeftCorner(codes, kSilentWord);
+    for (Index v = 0; v < dspoken.cols(); ++v) {
+      dspoken(t.best(v), v) += static_cast<S>(c.nowhere) * dscores(codes, v);
     }
-    auto dspoken = dscores.topRows(codes);
     const S kappa = slope(c, words);
-    for (Index v = 0; v < dscores.cols(); ++v) {
+    for (Index v = 0; v < dspoken.cols(); ++v) {
       const S dof_type = dspoken.col(v).dot(t.effect[0].col(v) - t.effect[1].col(v));
       dwords.choice(0, v) += kappa * t.of_type(v) * (S(1) - t.of_type(v)) * dof_type;
     }

@@ -124,6 +124,18 @@ struct ReferenceAgent {
     }
     return e;
   }
+  /// What the objects of the alphabet look like in the mean.
+  Vector<S> mean_object() const {
+    Vector<S> sum = Vector<S>::Zero(design.config.channels);
+    S objects = 0;
+    for (int p = 0; p < design.alphabet.size(); ++p) {
+      if (!Lexicon<S>::is_object(design.alphabet[p])) continue;
+      sum += encode(design.alphabet[p]);
+      objects += 1;
+    }
+    return sum / objects;
+  }
+
   /// (A9)-(A11): the scores of a word on each code of the alphabet and, last, on nowhere.
   Vector<S> spoken(babyai::WordId word) const {
     const Config& c = design.config;
@@ -185,6 +197,7 @@ struct ReferenceAgent {
     for (Index cell = 0; cell < grid::kViewCells; ++cell) {
       a.gaze(cell) += params.attention.silent.dot(encoding.col(cell));
     }
+    a.gaze(grid::kViewCells) += params.attention.silent.dot(mean_object());
     a.gaze = (a.gaze.array() - a.gaze.maxCoeff()).exp();
     a.gaze /= a.gaze.sum();
     const auto cells = a.gaze.head(grid::kViewCells).array();

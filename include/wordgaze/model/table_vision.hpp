@@ -80,8 +80,7 @@ struct TableVision {
       auto scores = t.scores.topRows(d.alphabet.size());
       scores.noalias() = t.encodings.transpose() * words.probes;
       if (d.config.gaze == Gaze::product) {
-        Lexicon<S>::forward(d.config, words, t.lexicon,
-                            t.scores.topLeftCorner(nowhere(d) + 1, kSilentWord));
+        Lexicon<S>::forward(d.config, words, t.lexicon, t.scores.topRows(nowhere(d) + 1));
       }
     }
     const Index channels = t.encodings.rows(), codes = t.encodings.cols();
@@ -184,7 +183,7 @@ struct TableVision {
       auto dscores = dt.scores.topRows(d.alphabet.size());
       if (d.config.gaze == Gaze::product) {
         Lexicon<S>::backward(d.config, words, t.lexicon, dt.lexicon,
-                             dt.scores.topLeftCorner(nowhere(d) + 1, kSilentWord), dwords);
+                             dt.scores.topRows(nowhere(d) + 1), dwords);
       }
       dwords.probes.noalias() += t.encodings * dscores;
       dt.encodings.noalias() += words.probes * dscores.transpose();
