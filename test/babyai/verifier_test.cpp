@@ -232,6 +232,8 @@ TEST(Verifier, FailsWhenThereIsNothingToDeclareInSequentialMode) {
   EXPECT_EQ(early({forward, done}), Status::failure);
   Play late("pick up the red ball", {">B"}, DoneMode::sequential);
   EXPECT_EQ(late({pickup, left, done}), Status::failure);
+  Play held("pick up the red ball", {">B"}, DoneMode::sequential);
+  EXPECT_EQ(held({pickup, pickup, done}), Status::failure);  // it was in hand already
   Play twice("go to the red ball, then go to the red ball", {">.B"}, DoneMode::sequential);
   EXPECT_EQ(twice({forward, done}), Status::ongoing);
   EXPECT_EQ(twice({done}), Status::failure);  // it must come true again
