@@ -27,7 +27,7 @@ CLI::Validator whole_number(Number low, Number high = std::numeric_limits<Number
       [=](std::string& text) -> std::string {
         const auto number = number_in<Number>(text);
         if (number && *number >= low && *number <= high) return "";
-        return formatted("expected a whole number from {} to {}; came '{}'", low, high,
+        return formatted("expected an integer from {} to {}; came '{}'", low, high,
                          shortened(text));
       },
       formatted("{} to {}", low, high));

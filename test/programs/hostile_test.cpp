@@ -97,9 +97,9 @@ TEST_F(Hostile, EnvironmentsWithoutEnd) {
 TEST_F(Hostile, NumbersThatAreNone) {
   const std::string bot = "eval --policy bot --env BabyAI-GoToObj-v0 --episodes 1 ";
   for (const char* seed : {"-1", "18446744073709551616", "''", "'1 x'", "0x10", "1.5", "' 1'"}) {
-    EXPECT_TRUE(refused_at_once(bot + "--seed " + seed, "--seed", "expected a whole number"));
+    EXPECT_TRUE(refused_at_once(bot + "--seed " + seed, "--seed", "expected an integer"));
     EXPECT_TRUE(refused_at_once(std::string("train --config tiny.toml --out a --seed ") + seed,
-                                "--seed", "expected a whole number"));
+                                "--seed", "expected an integer"));
     EXPECT_TRUE(refused_at_once(std::string("trace --env BabyAI-GoToObj-v0 --policy-seed ") + seed,
                                 "--policy-seed"));
   }
@@ -110,7 +110,7 @@ TEST_F(Hostile, NumbersThatAreNone) {
   }
   for (const char* option : {"--rooms ''", "--rooms 8x", "--rooms 99999999999", "--objects -1",
                              "--threads ''", "--episodes 1e3"}) {
-    EXPECT_TRUE(refused_at_once(bot + option, "expected a whole number"));
+    EXPECT_TRUE(refused_at_once(bot + option, "expected an integer"));
   }
   EXPECT_TRUE(succeeded(run(bot + "--seed 18446744073709551615")));
 }
