@@ -221,7 +221,7 @@ TEST_F(Eval, SaysThatThereAreTooManyThreads) {
 
 TEST_F(Eval, StopsForASignal) {
   for (const std::string who : {"--checkpoint ckpt", "--policy bot --env BabyAI-GoToLocal-v0"}) {
-    const auto stopped = run("timeout --preserve-status --signal=INT 1 eval " + who +
+    const auto stopped = run("timeout --foreground --preserve-status --signal=INT 1 eval " + who +
                              " --episodes 10000000 --json e.json");
     EXPECT_EQ(stopped.status, 130) << describe(stopped);
     EXPECT_TRUE(contains(stopped.err, "stopped by a signal"));

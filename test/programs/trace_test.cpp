@@ -106,7 +106,7 @@ TEST_F(Trace, LeavesTheOldFileWhereTheNewOneIsNotWhole) {
   run("cp t.jsonl before");
   const std::string endless =
       "trace --env BabyAI-GoToLocal-v0 --seeds 0:3 --steps 1000000000 --out t.jsonl";
-  const auto stopped = run("timeout --preserve-status --signal=TERM 1 " + endless);
+  const auto stopped = run("timeout --foreground --preserve-status --signal=TERM 1 " + endless);
   EXPECT_EQ(stopped.status, 143) << describe(stopped);
   EXPECT_TRUE(contains(stopped.err, "stopped by a signal"));
   EXPECT_TRUE(refused(run("ulimit -f 64; " + endless), "t.jsonl", "File too large"));

@@ -48,15 +48,15 @@ const std::string kEndless = "train --config tiny.toml --frames 100000000";
 TEST_F(Train, StopsForASignalAndSaysHowToGoOn) {
   const std::pair<std::string, int> signals[]{{"INT", 130}, {"TERM", 143}, {"HUP", 129}};
   for (const auto& [signal, status] : signals) {
-    const Shell::Result stopped =
-        run("timeout --preserve-status --signal=" + signal + " 1 " + kEndless + " --out " + signal);
+    const Shell::Result stopped = run("timeout --foreground --preserve-status --signal=" + signal +
+                                      " 1 " + kEndless + " --out " + signal);
     EXPECT_EQ(stopped.status, status) << describe(stopped);
     EXPECT_TRUE(contains(stopped.err, "again to stop at once"));
     EXPECT_TRUE(contains(stopped.err, "--resume"));
     // What the metrics tell of is in the checkpoint.
     const auto rows = run("tail -n +2 " + signal + "/metrics.csv | wc -l").out;
-    const auto resumed =
-        run("timeout --preserve-status --signal=INT 1 " + kEndless + " --resume --out " + signal);
+    const auto resumed = run("timeout --foreground --preserve-status --signal=INT 1 " + kEndless +
+                             " --resume --out " + signal);
     EXPECT_EQ(resumed.status, 130) << describe(resumed);
     EXPECT_GT(std::stoi(run("tail -n +2 " + signal + "/metrics.csv | wc -l").out), std::stoi(rows));
     EXPECT_TRUE(succeeded(run("cut -d, -f1 " + signal + "/metrics.csv | tail -n +2 | sort -cnu")));
@@ -109,7 +109,8 @@ TEST_F(Train, HasAFolderOfItsOwn) {
   EXPECT_TRUE(refused(second, "'a'", "at work"));
   // The lock died with its process.
   EXPECT_EQ(
-      run("timeout --preserve-status --signal=INT 1 " + kEndless + " --out a --resume").status,
+      run("timeout --foreground --preserve-status --signal=INT 1 " + kEndless + " --out a --resume")
+          .status,
       130);
 }
 

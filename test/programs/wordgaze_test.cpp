@@ -73,7 +73,7 @@ TEST_F(Program, StopsMeasuringForASignal) {
   for (const std::string what :
        {"--sim BabyAI-GoToLocal-v0", "--reset BabyAI-GoToLocal-v0", "--act tiny.toml"}) {
     const auto stopped =
-        run("timeout --preserve-status --signal=INT 1 bench --seconds 3000 " + what);
+        run("timeout --foreground --preserve-status --signal=INT 1 bench --seconds 3000 " + what);
     EXPECT_EQ(stopped.status, 130) << describe(stopped);
     EXPECT_TRUE(contains(stopped.err, "stopped by a signal"));
   }
