@@ -165,8 +165,49 @@ void check_bounds(std::string_view toml, std::string_view source) {
           kMostNesting);
 }
 
+/// Behind the string that begins at `begin` with a quote: one line, or any number between three
+/// quotes.
+std::size_t end_of_string(std::string_view toml, std::size_t begin) {
+  const char quote = toml[begin];
+  const std::string three(3, quote);
+  const bool lines = toml.substr(begin).starts_with(three);
+  for (std::size_t i = begin + (lines ? 3 : 1); i < toml.size(); ++i) {
+    if (toml[i] == '\\' && quote == '"') {
+      ++i;
+    } else if (lines && toml.substr(i).starts_with(three)) {
+      i += 3;  // two more are the end of the text
+      for (int more = 0; more < 2 && i < toml.size() && toml[i] == quote; ++more) ++i;
+      return i;
+    } else if (!lines && (toml[i] == quote || toml[i] == '\n')) {
+      return i + 1;
+    }
+  }
+  return toml.size();
+}
+
+/// TOML has letters beyond ASCII in texts and comments alone. toml++ 3.3 has undefined behavior for
+/// some of those that stand elsewhere: it asks whether they are white space.
+void check_letters(std::string_view toml, std::string_view source) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  std::size_t i = toml.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
+  while (i < toml.size()) {
+    if (toml[i] == '#') {
+      i = std::min(toml.find('\n', i), toml.size());
+    } else if (toml[i] == '"' || toml[i] == '\'') {
+      i = end_of_string(toml, i);
+    } else if (static_cast<unsigned char>(toml[i]) >= 0x80) {
+      throw std::invalid_argument(fmt::format(
+          "{}:{}: not valid TOML: a letter beyond ASCII outside quotes; put text in quotes", source,
+          1 + std::ranges::count(toml.substr(0, i), '\n')));
+    } else {
+      ++i;
+    }
+  }
+}
+
 toml::table parsed(std::string_view toml, std::string_view source) {
   check_bounds(toml, source);
+  check_letters(toml, source);
   try {
     return toml::parse(toml);
   } catch (const toml::parse_error& error) {

@@ -311,6 +311,21 @@ TEST(HostileConfiguration, IsRefusedWhereTheParserAsserts) {
   }
 }
 
+TEST(HostileConfiguration, HasLettersBeyondAsciiInQuotesAndCommentsAlone) {
+  const auto refusal = [](const char* toml) {
+    return message_of<std::invalid_argument>([&] { parse_config<Config>(toml, "bad.toml"); });
+  };
+  for (const char* toml :
+       {"a = 0\u020c1", "\u00e9 = 1", "# \u00e9\n\n[\u3000]", "a = 'x'\u00a0",
+        "a = \"\"\"\u00e9\"\"\"\"\"\n\u00e9 = 1", "a = \"\\\"\u00e9\"\u2000\n"}) {
+    EXPECT_TRUE(contains(refusal(toml), "a letter beyond ASCII outside quotes")) << toml;
+  }
+  EXPECT_TRUE(contains(refusal("# 1\n'''\n'''=1\nb\u00e9"), "bad.toml:4"));
+  // Where they may stand they are left to the parser.
+  EXPECT_NO_THROW(parse_config<Config>("\xef\xbb\xbf# \u00e9 'a \"\n", "good.toml"));
+  EXPECT_TRUE(contains(refusal("'\u00e9' = \"\"\"\n\u00e9\"\"\""), "unknown key"));
+}
+
 TEST(HostileAssignment, IsRefused) {
   Config config;
   const auto refusal = [&](const std::string& assignment) {
@@ -322,6 +337,7 @@ TEST(HostileAssignment, IsRefused) {
   EXPECT_LT(refusal("training.steps=" + std::string(100'000, '7')).size(), 1000u);
   EXPECT_TRUE(contains(refusal("training.steps=[= x"), "came the text"));
   EXPECT_TRUE(contains(refusal("training.steps=18446744073709551616"), "came the text"));
+  EXPECT_TRUE(contains(refusal("training.steps=0\u020c1"), "came the text"));
 }
 
 TEST(Assignment, WithoutAValueHintsAtTheValue) {
