@@ -39,5 +39,6 @@ Command trace_command();
 Command bench_command();
 Command levels_command();
 Command page_command();
+Command play_command();
 
 }  // namespace wordgaze::apps

@@ -1,6 +1,7 @@
 // eval: how well a trained agent does, in the room it knows and in others, and where it looks.
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -17,6 +18,7 @@
 #include "output.hpp"
 #include "pictures.hpp"
 #include "transparency_report.hpp"
+#include "watch.hpp"
 #include "wordgaze/babyai/level_edit.hpp"
 #include "wordgaze/bot/policy.hpp"
 #include "wordgaze/evaluation/evaluator.hpp"
@@ -38,6 +40,7 @@ struct Arguments {
   std::uint64_t seed = 1'000'000;
   int threads = 0;
   bool greedy = false, sample = false, transparency = false;
+  apps::Watch watch;
   apps::Listeners::Options listeners;
 };
 
@@ -72,6 +75,7 @@ void add_options(CLI::App& app, Arguments& a) {
       "step, for each policy: open it in a browser");
   app.add_option("--page-episodes", a.page_episodes, "so many of them")
       ->check(apps::whole_number(1, 100'000));
+  apps::Watch::add_options(app, a.watch);
   apps::Listeners::add_options(app, a.listeners, "LCM log of every step");
 }
 
@@ -174,6 +178,7 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
   if (!a.pictures.empty()) apps::remove_old_pictures(a.pictures);
   std::optional<page::EpisodePage> page;
   if (!a.page.empty()) page.emplace(page_title(a.checkpoint, levels.front()), a.page_episodes);
+  const auto live = a.watch.open({.title = page_title(a.checkpoint, levels.front())});
   int evaluations = 0, pictures = 0;
   Team team(threads(a));
   for (const auto& level : levels) {
@@ -207,6 +212,9 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
         episodes.add(&*page);
         decisions.add(&*page);
       }
+      if (live) live->on_run(policy);
+      episodes.add(live.get());
+      decisions.add(live.get());
       const auto r =
           evaluation::evaluate(evaluation::policy_factory(agent, weights), evaluation, team,
                                {.episodes = episodes.or_null(), .decisions = decisions.or_null()});
@@ -225,18 +233,24 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
     page->write(a.page);
     apps::say("{} episodes to look at in {}\n", page->episodes(), a.page);
   }
+  if (live) {
+    live->note("The evaluation is over.");
+    apps::note("the page stays until Ctrl-C\n");
+    while (io::StopSignals::received() == 0) live->next_command(std::chrono::milliseconds(200));
+  }
 }
 
 /// The bot or the random policy, for comparison.
 void evaluate_policy(const Arguments& a, nlohmann::ordered_json& report) {
   require(!a.env.empty(), "--policy {} wants --env ID: in which environment?", a.policy);
   const bool attention = a.transparency || !a.pictures.empty() || !a.page.empty() ||
-                         !a.listeners.log.empty() || !a.listeners.url.empty() || a.greedy ||
-                         a.sample;
-  require(!attention,
-          "--policy {}: --greedy, --sample, --transparency, --pictures, --page, --lcm-log and "
-          "--lcm-url are for agents, which have a policy and attention to show; leave them out",
-          a.policy);
+                         a.watch.wanted || !a.listeners.log.empty() || !a.listeners.url.empty() ||
+                         a.greedy || a.sample;
+  require(
+      !attention,
+      "--policy {}: --greedy, --sample, --transparency, --pictures, --page, --watch, --lcm-log and "
+      "--lcm-url are for agents, which have a policy and attention to show; leave them out",
+      a.policy);
   Team team(threads(a));
   for (const auto& level : settings(a, babyai::find_level(a.env))) {
     const Evaluation evaluation{.level = level,

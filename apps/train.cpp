@@ -11,6 +11,7 @@
 #include "command.hpp"
 #include "listeners.hpp"
 #include "output.hpp"
+#include "watch.hpp"
 #include "wordgaze/core/require.hpp"
 #include "wordgaze/io/config_file.hpp"
 #include "wordgaze/io/csv_log.hpp"
@@ -33,6 +34,7 @@ struct Arguments {
   std::vector<std::string> set;
   std::string seed, frames, threads;
   bool resume = false;
+  apps::Watch watch;
   apps::Listeners::Options listeners;
 };
 
@@ -52,6 +54,7 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--set", a.set, "section.key=value, as often as wanted")
       ->allow_extra_args(true)
       ->type_name("KEY=VALUE ...");
+  apps::Watch::add_options(app, a.watch);
   apps::Listeners::add_options(app, a.listeners, "LCM log of metrics and of a sample of episodes");
 }
 
@@ -141,6 +144,11 @@ int run(const Arguments& a) {
   options.every = config.log_episodes;
   if (goes_on) options.update = trainer.updates();
   apps::Listeners listeners(options);
+  const auto live = a.watch.open({.title = options.run_id, .every = config.log_episodes});
+  if (live) live->on_run(options.run_id);
+  policy::Observers observers;
+  observers.add(listeners.observer());
+  observers.add(live.get());
 
   io::clear_temporaries(out.path, {"config.toml", "metrics.csv", "checkpoint.safetensors"});
   io::write_file(out.config, io::to_toml(config));
@@ -161,7 +169,7 @@ int run(const Arguments& a) {
   {
     io::Progress progress("frames", trainer.frames(), config.frames);
     while (!trainer.finished() && signals.received() == 0) {
-      const training::Metrics metrics = trainer.update(listeners.observer());
+      const training::Metrics metrics = trainer.update(observers.or_null());
       try {
         log.append(metrics.values());
       } catch (...) {

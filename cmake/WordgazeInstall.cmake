@@ -22,6 +22,6 @@ configure_package_config_file(cmake/wordgazeConfig.cmake.in wordgazeConfig.cmake
 write_basic_package_version_file(wordgazeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES
   ${PROJECT_BINARY_DIR}/wordgazeConfig.cmake ${PROJECT_BINARY_DIR}/wordgazeConfigVersion.cmake
-  cmake/FindLCM.cmake cmake/FindCairo.cmake DESTINATION ${wordgaze_package_dir})
+  cmake/FindLCM.cmake cmake/FindCairo.cmake cmake/FindHttplib.cmake DESTINATION ${wordgaze_package_dir})
 install(DIRECTORY include/wordgaze DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(FILES package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/wordgaze)

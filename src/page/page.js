@@ -225,14 +225,14 @@
         `${other ? bar(other[1][a], 'without') : ''}</div>`;
     }).join('') || '<p class="note">The log does not say.</p>';
     $('policy-note').innerHTML = other ? `Blue: ${escape(other[0])}.`
-      : `Does: <b>${escape(chosen)}</b>. Value ${fixed(step.value)}${step.reward ? `, reward ${fixed(step.reward)}` : ''}.`;
+      : `${step.pending ? 'Would do' : 'Does'}: <b>${escape(chosen)}</b>. Value ${fixed(step.value)}${step.reward ? `, reward ${fixed(step.reward)}` : ''}.`;
   }
 
   function drawWords(step) {
     const e = state.episode, weights = shares(step.weights), mask = shares(step.mask);
     const masked = mask.some((a) => a < .995), c = cell();
     $('words').innerHTML = e.words.map((text, i) => {
-      const of = e.sub_task_of ? e.sub_task_of[i] : -1;
+      const of = step.sub_task_of ? step.sub_task_of[i] : -1;
       const done = of >= 0 && step.done && step.done[of], waits = of >= 0 && !done && step.turn && !step.turn[of];
       const looks = c >= 0 && step.maps ? mapOf(step, i)[c] : 0;
       const bar = (name, share, color) => `<span class="bar" style="--share:${share};--color:var(--${color})">${name}<i></i>${fixed(share)}</span>`;
@@ -309,7 +309,8 @@
   // ---- all of it -------------------------------------------------------------------------------------
   function draw() {
     const step = now(), e = state.episode;
-    $('episode').hidden = !e;
+    $('facts').hidden = $('words').hidden = !e;
+    document.querySelector('.panels').hidden = document.querySelector('.player').hidden = !e;
     if (!e) return;
     $('facts').textContent = `Episode ${e.id}${e.run ? ` of ${e.run}` : ''} in ${e.env}, seed ${e.seed}` +
       (e.success === undefined ? '' : e.success ? `: success, return ${fixed(e.return)}` : e.truncated ? ': out of time' : ': failure');
@@ -332,7 +333,7 @@
     say();
   }
   function open(episode) {
-    Object.assign(state, {episode, step: 0, word: -1, cell: -1, overWord: -1, overCell: -1});
+    Object.assign(state, {episode, step: state.follow && data.live ? Math.max(0, episode.steps.length - 1) : 0, word: -1, cell: -1, overWord: -1, overCell: -1});
     drawList();
     draw();
     say();
@@ -409,7 +410,7 @@
     };
   }
   document.addEventListener('keydown', (event) => {
-    if (event.target.tagName === 'SELECT' || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.target.tagName === 'SELECT' || event.target.id === 'mission' || event.ctrlKey || event.metaKey || event.altKey) return;
     const on = event.target.tagName, keys = {
       ArrowLeft: () => go(state.step - 1), ArrowRight: () => go(state.step + 1), Home: () => go(0), End: () => go(steps().length - 1),
       n: () => neighbor(1), p: () => neighbor(-1), ' ': () => on !== 'BUTTON' && play(!state.playing),
@@ -420,9 +421,114 @@
     act();
   });
 
+  // ---- live: the same, told piece by piece ----------------------------------------------------------
+  const KEPT = 300;  // episodes
+  const curves = new Map();  // of learning, by name: [frames, number]
+  const SHOWN = ['success_rate', 'mean_return', 'entropy', 'value_loss', 'hit', 'mask_accuracy'];
+
+  function drawLearning() {
+    const names = SHOWN.filter((name) => curves.has(name));
+    $('learning').hidden = !names.length;
+    $('learning').innerHTML = names.map((name) => {
+      const points = curves.get(name), last = points[points.length - 1];
+      const most = last[0] || 1, high = Math.max(1e-9, ...points.map((q) => q[1]), name === 'success_rate' ? 1 : 0);
+      const low = Math.min(0, ...points.map((q) => q[1]));
+      const line = points.map(([x, y]) => `${(190 * x / most).toFixed(1)},${(44 - 42 * (y - low) / (high - low)).toFixed(1)}`);
+      return `<figure><figcaption>${escape(name)} <b>${last[1].toFixed(3)}</b></figcaption><svg viewBox="0 0 190 46" role="img" ` +
+        `aria-label="${escape(name)} over ${most} frames, now ${last[1].toFixed(3)}"><polyline points="${line.join(' ')}" fill="none" stroke="var(--accent)" stroke-width="1.5"/></svg></figure>`;
+    }).join('');
+  }
+  function learn(told) {
+    for (const [name, number] of Object.entries(told.scalars)) {
+      if (number === null) continue;
+      if (!curves.has(name)) curves.set(name, []);
+      const points = curves.get(name);
+      points.push([told.frames, number]);
+      if (points.length > 600) curves.set(name, points.filter((_, i) => i % 2 || i === points.length - 1));
+    }
+    drawLearning();
+  }
+
+  function hear(told) {
+    if (told.note !== undefined) {
+      $('note').textContent = told.note;
+      $('note').hidden = !told.note;
+      return;
+    }
+    if (told.scalars) return learn(told);
+    if (told.begin) {
+      state.episodes.push({...told.begin, steps: []});
+      if (state.episodes.length > KEPT) state.episodes.shift();
+      fillFilters();
+      if (state.follow || !state.episode) open(state.episodes[state.episodes.length - 1]);
+      else drawList();
+      return;
+    }
+    const episode = state.episodes.find((e) => e.id === told.episode && e.success === undefined);
+    if (!episode) return;
+    if (told.end) {
+      Object.assign(episode, told.end);
+      episode.steps = episode.steps.filter((s) => !s.pending);
+      drawList();
+      if (episode === state.episode) go(state.step);
+      return;
+    }
+    const {steps: all} = episode, last = all[all.length - 1];
+    if (last && last.step === told.step.step) all[all.length - 1] = {...last, pending: false, ...told.step};
+    else all.push(told.step);
+    if (episode === state.episode) {
+      if (state.follow) go(all.length - 1);
+      else draw();
+    }
+  }
+
+  function command(what) {
+    fetch('command', {method: 'POST', headers: {'Content-Type': 'application/json'}, body: JSON.stringify(what)});
+  }
+  function offerCommands() {
+    $('commands').hidden = false;
+    document.querySelector('.keys').innerHTML = data.actions.map((name) => `<button type="button" data-action="${escape(name)}">${escape(name)}</button>`).join('');
+    $('commands').addEventListener('click', (event) => {
+      if (event.target.dataset.action) command({action: event.target.dataset.action});
+    });
+    const agent = (on) => {
+      $('agent-on').setAttribute('aria-pressed', on);
+      $('agent-on').textContent = on ? 'Agent: stop' : 'Agent: go';
+      command({who: on ? 'agent' : 'person'});
+    };
+    $('agent-step').onclick = () => command({who: 'step'});
+    $('agent-on').onclick = () => agent($('agent-on').getAttribute('aria-pressed') !== 'true');
+    $('next-world').onclick = () => command({next: true});
+    $('commands').onsubmit = (event) => {
+      event.preventDefault();
+      if ($('mission').value.trim()) command({mission: $('mission').value.trim()});
+    };
+    const keys = {ArrowUp: 'forward', ArrowLeft: 'turn left', ArrowRight: 'turn right', u: 'pick up', d: 'drop', t: 'toggle', e: 'done'};
+    document.addEventListener('keydown', (event) => {
+      if (['INPUT', 'SELECT'].includes(event.target.tagName) || event.ctrlKey || event.metaKey || event.altKey) return;
+      if (keys[event.key]) command({action: keys[event.key]});
+      else if (event.key === 's') $('agent-step').click();
+      else if (event.key === 'g') $('agent-on').click();
+      else if (event.key === 'w') $('next-world').click();
+      else return;
+      event.preventDefault();
+      event.stopImmediatePropagation();
+    }, true);
+  }
+
   document.querySelector('.scale i').style.background = gradient;
   state.episodes = data.episodes;
   fillFilters();
   drawList();
   if (state.episodes.length) open(state.episodes[0]);
+  else draw();
+  if (data.live) {
+    $('follow-label').hidden = false;
+    $('follow').onchange = () => { state.follow = $('follow').checked; };
+    if (data.commands) offerCommands();
+    const events = new EventSource('events');
+    events.onmessage = (event) => hear(JSON.parse(event.data));
+    events.onerror = () => hear({note: 'The program has ended or cannot be reached.'});
+    events.onopen = () => { state.episodes = []; state.episode = null; curves.clear(); hear({note: ''}); drawList(); };
+  }
 })();

@@ -96,7 +96,6 @@ TEST(EpisodePage, HoldsWhatTheAgentSawAndDid) {
     EXPECT_EQ(episode["run"], "sampled");
     EXPECT_EQ(episode["env"], "Wordgaze-Two-N8-K4-v0");
     const std::size_t words = episode["words"].size();
-    EXPECT_EQ(episode["sub_task_of"].size(), words);
     EXPECT_TRUE(episode.contains("success"));
     env::Environment again("Wordgaze-Two-N8-K4-v0");
     again.reset(std::stoull(episode["seed"].get<std::string>()));
@@ -115,6 +114,7 @@ TEST(EpisodePage, HoldsWhatTheAgentSawAndDid) {
       EXPECT_EQ(bytes_of(step["policy"]), evaluated.witness.policies.at(number));
       EXPECT_EQ(bytes_of(step["gaze"]), evaluated.witness.gazes.at(number));
       EXPECT_EQ(bytes_of(step["maps"]).size(), 49 * words);
+      EXPECT_EQ(step["sub_task_of"].size(), words);
       EXPECT_EQ(bytes_of(step["filter"]).size(), 49u);
       again.step(static_cast<grid::Action>(step["action"]));
       ++number;
