@@ -38,5 +38,6 @@ Command eval_command();
 Command trace_command();
 Command bench_command();
 Command levels_command();
+Command serve_command();
 
 }  // namespace wordgaze::apps
