@@ -81,9 +81,9 @@ int run(const Arguments& a) {
                    service.complaint());
         complained = true;
       }
-      progress.update(counts.requests, fmt::format("{} clients, {} errors, {} evictions",
-                                                   server.clients(), counts.errors,
-                                                   counts.evictions));
+      progress.update(counts.requests,
+                      fmt::format("{} clients, {} errors, {} evictions", server.clients(),
+                                  counts.errors, counts.evictions));
     }
   }
   apps::say("serve: {}\n", summary(server.counts(), service.counts()));
@@ -104,13 +104,14 @@ int run(const Arguments&) {
 }  // namespace
 
 wordgaze::apps::Command wordgaze::apps::serve_command() {
-  return {"serve",
-          "Lets a trained agent act for robots: answers policy_request_t over LCM by "
-          "policy_reply_t\n(docs/robot-server.md), until a signal stops it. Without --greedy actions "
-          "are drawn from the policy.",
-          [](CLI::App& app) {
-            const auto arguments = std::make_shared<Arguments>();
-            add_options(app, *arguments);
-            return [arguments] { return run(*arguments); };
-          }};
+  return {
+      "serve",
+      "Lets a trained agent act for robots: answers policy_request_t over LCM by "
+      "policy_reply_t\n(docs/robot-server.md), until a signal stops it. Without --greedy actions "
+      "are drawn from the policy.",
+      [](CLI::App& app) {
+        const auto arguments = std::make_shared<Arguments>();
+        add_options(app, *arguments);
+        return [arguments] { return run(*arguments); };
+      }};
 }

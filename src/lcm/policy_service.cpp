@@ -37,7 +37,8 @@ PolicyService::PolicyService(std::shared_ptr<lcm::LCM> bus, policy::Server& serv
     : bus_(std::move(bus)), server_(&server) {
   // A function: LCM's call of a member function trips over g++ 12's undefined-behavior sanitizer.
   using Hear = void (*)(const lcm::ReceiveBuffer*, const std::string&, PolicyService*);
-  const Hear on_message = [](const lcm::ReceiveBuffer* received, const std::string&, PolicyService* it) {
+  const Hear on_message = [](const lcm::ReceiveBuffer* received, const std::string&,
+                             PolicyService* it) {
     it->hear({static_cast<const std::uint8_t*>(received->data), received->data_size});
   };
   subscription_ = bus_->subscribeFunction(std::string(kPolicyRequestChannel), on_message, this);

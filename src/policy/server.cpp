@@ -79,10 +79,11 @@ const Reply& Server::answer(const Request& request) {
         ++counts_.repeats;
         return client->reply;
       }
-      require(request.sequence != last,
-              "request {} of client {} is another than the one that was answered under this "
-              "number; each request has a number of its own, and each client a client_id of its own",
-              last, request.client);
+      require(
+          request.sequence != last,
+          "request {} of client {} is another than the one that was answered under this "
+          "number; each request has a number of its own, and each client a client_id of its own",
+          last, request.client);
       policy_->set_memory(0, client->memory);
     } else if (const std::int64_t* last = evicted_.find(request.client); last != nullptr) {
       require(request.reset,
@@ -155,8 +156,7 @@ void Server::observe(const Request& request) {
   const auto& codes = policy_->design().alphabet;
   for (std::size_t cell = 0; cell < grid::kViewCells; ++cell) {
     const auto* of = request.image.data() + 3 * cell;
-    const bool in_range =
-        of[0] < model::kTypes && of[1] < model::kColors && of[2] < model::kStates;
+    const bool in_range = of[0] < model::kTypes && of[1] < model::kColors && of[2] < model::kStates;
     require(in_range && codes.find({of[0], of[1], of[2]}) >= 0,
             "cell ({}, {}) of the view is type {}, color {}, state {}, which the agent does not "
             "know; docs/robot-server.md lists what can be seen",

@@ -18,7 +18,7 @@ namespace wordgaze::policy {
 /// is sent again keeps its number.
 struct Request {
   std::int64_t client = 0, sequence = 0;
-  bool reset = false;   ///< an episode begins: empty memory
+  bool reset = false;     ///< an episode begins: empty memory
   std::string mission{};  ///< in words of the vocabulary, as "go to the red ball"
   std::array<std::uint8_t, grid::kImageBytes> image{};  ///< the view, as in Observation
   int direction = -1;  ///< 0 right, 1 down, 2 left, 3 up; -1: not known. The agent does not read it
@@ -30,13 +30,13 @@ struct Request {
 /// The answer. With an error there is no action, and the memory of the client is as it was.
 struct Reply {
   std::int64_t client = 0, sequence = 0;
-  std::string error{};  ///< printable ASCII; empty when all is well
-  int action = -1;                   ///< grid::Action
-  std::vector<float> probabilities{};  ///< one an action
-  float value = 0;                   ///< what the critic expects
-  babyai::Sentence sentence{};       ///< the mission as the agent reads it
-  std::vector<float> word_weights{};  ///< w, one a word; empty without attention
-  std::vector<float> word_mask{};  ///< alpha, one a word
+  std::string error{};                        ///< printable ASCII; empty when all is well
+  int action = -1;                            ///< grid::Action
+  std::vector<float> probabilities{};         ///< one an action
+  float value = 0;                            ///< what the critic expects
+  babyai::Sentence sentence{};                ///< the mission as the agent reads it
+  std::vector<float> word_weights{};          ///< w, one a word; empty without attention
+  std::vector<float> word_mask{};             ///< alpha, one a word
   std::array<float, grid::kViewCells> map{};  ///< M
   float nowhere = 0;                          ///< what M has on nowhere
 
