@@ -38,6 +38,7 @@ Command eval_command();
 Command trace_command();
 Command bench_command();
 Command levels_command();
+Command page_command();
 Command serve_command();
 
 }  // namespace wordgaze::apps

@@ -23,6 +23,7 @@
 #include "wordgaze/io/file.hpp"
 #include "wordgaze/io/output_check.hpp"
 #include "wordgaze/io/stop_signals.hpp"
+#include "wordgaze/page/episode_page.hpp"
 #include "wordgaze/training/checkpoint.hpp"
 
 namespace {
@@ -31,9 +32,9 @@ using namespace wordgaze;
 using evaluation::Evaluation;
 
 struct Arguments {
-  std::string checkpoint, policy, env, json, pictures;
+  std::string checkpoint, policy, env, json, pictures, page;
   std::vector<int> rooms, objects;
-  int episodes = 1000;
+  int episodes = 1000, page_episodes = 100;
   std::uint64_t seed = 1'000'000;
   int threads = 0;
   bool greedy = false, sample = false, transparency = false;
@@ -65,6 +66,12 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--pictures", a.pictures,
                  "folder for pictures (PNG) of the attention in the first 6 episodes of the first "
                  "setting, for each policy; pictures of an earlier evaluation there are removed");
+  app.add_option(
+      "--page", a.page,
+      "file for a page (HTML) that shows the first episodes of the first setting step by "
+      "step, for each policy: open it in a browser");
+  app.add_option("--page-episodes", a.page_episodes, "so many of them")
+      ->check(apps::whole_number(1, 100'000));
   apps::Listeners::add_options(app, a.listeners, "LCM log of every step");
 }
 
@@ -150,6 +157,10 @@ int threads(const Arguments& a) {
                        : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
+std::string page_title(const std::filesystem::path& checkpoint, const babyai::LevelSpec& level) {
+  return fmt::format("{} in {}", checkpoint.stem().string(), level.id);
+}
+
 /// A trained agent in each setting, with each policy that is wanted.
 void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
   const training::TrainConfig config = training::load_config(a.checkpoint);
@@ -161,6 +172,8 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
   a.listeners.checkpoint = a.checkpoint;
   apps::Listeners listeners(a.listeners);
   if (!a.pictures.empty()) apps::remove_old_pictures(a.pictures);
+  std::optional<page::EpisodePage> page;
+  if (!a.page.empty()) page.emplace(page_title(a.checkpoint, levels.front()), a.page_episodes);
   int evaluations = 0, pictures = 0;
   Team team(threads(a));
   for (const auto& level : levels) {
@@ -178,15 +191,25 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
       listeners.on_run(fmt::format("eval-{}-{}", ++evaluations, policy));
       std::optional<evaluation::Transparency> transparency;
       if (a.transparency) transparency.emplace(config.model, config.ppo.mask_truth);
-      evaluation::Observers observers{.episodes = listeners.observer(),
-                                      .decisions = transparency ? &*transparency : nullptr};
+      policy::Observers episodes;
+      evaluation::DecisionObservers decisions;
+      episodes.add(listeners.observer());
+      decisions.add(transparency ? &*transparency : nullptr);
+      const bool shown = &level == &levels.front();
       std::optional<apps::Painter> painter;
-      if (!a.pictures.empty() && &level == &levels.front()) {
-        painter.emplace(a.pictures, policy, evaluation.first, observers);
-        observers = {.episodes = &*painter, .decisions = &*painter};
+      if (!a.pictures.empty() && shown) {
+        painter.emplace(a.pictures, policy, evaluation.first);
+        episodes.add(&*painter);
+        decisions.add(&*painter);
       }
-      const auto r = evaluation::evaluate(evaluation::policy_factory(agent, weights), evaluation,
-                                          team, observers);
+      if (page && shown) {
+        page->on_run(policy);
+        episodes.add(&*page);
+        decisions.add(&*page);
+      }
+      const auto r =
+          evaluation::evaluate(evaluation::policy_factory(agent, weights), evaluation, team,
+                               {.episodes = episodes.or_null(), .decisions = decisions.or_null()});
       if (painter) pictures += painter->pictures();
       print_row(evaluation, policy, r);
       print_joins(r.breakdown);
@@ -198,18 +221,22 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
     }
   }
   if (!a.pictures.empty()) apps::say("{} pictures in {}\n", pictures, a.pictures);
+  if (page) {
+    page->write(a.page);
+    apps::say("{} episodes to look at in {}\n", page->episodes(), a.page);
+  }
 }
 
 /// The bot or the random policy, for comparison.
 void evaluate_policy(const Arguments& a, nlohmann::ordered_json& report) {
   require(!a.env.empty(), "--policy {} wants --env ID: in which environment?", a.policy);
-  const bool attention = a.transparency || !a.pictures.empty() || !a.listeners.log.empty() ||
-                         !a.listeners.url.empty() || a.greedy || a.sample;
-  require(
-      !attention,
-      "--policy {}: --greedy, --sample, --transparency, --pictures, --lcm-log and --lcm-url are "
-      "for agents, which have a policy and attention to show; leave them out",
-      a.policy);
+  const bool attention = a.transparency || !a.pictures.empty() || !a.page.empty() ||
+                         !a.listeners.log.empty() || !a.listeners.url.empty() || a.greedy ||
+                         a.sample;
+  require(!attention,
+          "--policy {}: --greedy, --sample, --transparency, --pictures, --page, --lcm-log and "
+          "--lcm-url are for agents, which have a policy and attention to show; leave them out",
+          a.policy);
   Team team(threads(a));
   for (const auto& level : settings(a, babyai::find_level(a.env))) {
     const Evaluation evaluation{.level = level,
@@ -225,9 +252,9 @@ void evaluate_policy(const Arguments& a, nlohmann::ordered_json& report) {
 
 int run(const Arguments& a) {
   if (!a.pictures.empty()) std::filesystem::create_directories(a.pictures);  // others may lie there
-  io::check_outputs(
-      std::array{io::NamedPath{"--json", a.json}, io::NamedPath{"--lcm-log", a.listeners.log}},
-      std::array{io::NamedPath{"--checkpoint", a.checkpoint}});
+  io::check_outputs(std::array{io::NamedPath{"--json", a.json}, io::NamedPath{"--page", a.page},
+                               io::NamedPath{"--lcm-log", a.listeners.log}},
+                    std::array{io::NamedPath{"--checkpoint", a.checkpoint}});
   const io::StopSignals signals("\neval: stopping; again to stop at once\n");
   nlohmann::ordered_json report{{"checkpoint", a.checkpoint},
                                 {"settings", nlohmann::ordered_json::array()}};

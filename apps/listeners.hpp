@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "wordgaze/policy/observer.hpp"
+#include "wordgaze/policy/observers.hpp"
 #if WORDGAZE_WITH_LCM
 #include "wordgaze/lcm/live_publisher.hpp"
 #include "wordgaze/lcm/log_writer.hpp"
@@ -56,6 +56,7 @@ class Listeners final : public policy::Observer {
       auto live = std::make_unique<lcm_io::LivePublisher>(options.url, origin, options.every);
       warn(live->problem());
       live_ = live.get();
+      heard_.add(live.get());
       listeners_.push_back(std::move(live));
     }
     if (!options.log.empty()) {
@@ -63,6 +64,7 @@ class Listeners final : public policy::Observer {
           std::make_unique<lcm_io::LogWriter>(options.log, origin, options.every, options.update);
       warn(log->gap());
       log_ = log.get();
+      heard_.add(log.get());
       listeners_.push_back(std::move(log));
     }
 #else
@@ -89,30 +91,29 @@ class Listeners final : public policy::Observer {
   }
 
   /// Null when nobody listens: records need not be made.
-  policy::Observer* observer() { return listeners_.empty() ? nullptr : this; }
+  policy::Observer* observer() { return heard_.or_null() == nullptr ? nullptr : this; }
 
-  void on_run(std::string_view run_id) override {
-    for (const auto& l : listeners_) l->on_run(run_id);
-  }
-  bool wants_episode(std::int64_t episode) override {
-    bool wanted = false;
-    for (const auto& l : listeners_) wanted = l->wants_episode(episode) || wanted;
-    return wanted;
-  }
+  void on_run(std::string_view run_id) override { heard_.on_run(run_id); }
+  bool wants_episode(std::int64_t episode) override { return heard_.wants_episode(episode); }
+  bool wants_scenes() const override { return heard_.wants_scenes(); }
   void on_begin(const policy::EpisodeBegin& r) override {
-    for (const auto& l : listeners_) l->on_begin(r);
+    heard_.on_begin(r);
+    say_problem();
+  }
+  void on_scene(const policy::SceneRecord& r) override {
+    heard_.on_scene(r);
     say_problem();
   }
   void on_step(const policy::StepRecord& r) override {
-    for (const auto& l : listeners_) l->on_step(r);
+    heard_.on_step(r);
     say_problem();
   }
   void on_end(const policy::EpisodeEnd& r) override {
-    for (const auto& l : listeners_) l->on_end(r);
+    heard_.on_end(r);
     say_problem();
   }
   void on_update(const policy::UpdateRecord& r) override {
-    for (const auto& l : listeners_) l->on_update(r);
+    heard_.on_update(r);
     say_problem();
   }
 
@@ -130,6 +131,7 @@ class Listeners final : public policy::Observer {
   }
 
   std::vector<std::unique_ptr<policy::Observer>> listeners_;
+  policy::Observers heard_;
 #if WORDGAZE_WITH_LCM
   const lcm_io::LivePublisher* live_ = nullptr;
   const lcm_io::LogWriter* log_ = nullptr;

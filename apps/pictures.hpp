@@ -29,39 +29,30 @@ inline void remove_old_pictures(const std::filesystem::path& folder) {
 }
 
 /// Draws, of the first episodes of an evaluation, the decisions that tell most: the first, the one
-/// at which a target comes into view, the one after a sub-task is completed, and the last. What it
-/// hears it passes on to the others who are told of the evaluation.
+/// at which a target comes into view, the one after a sub-task is completed, and the last.
 class Painter final : public policy::Observer, public evaluation::DecisionObserver {
  public:
   static constexpr int kEpisodes = 6;
 
   /// Pictures of the episodes from number `first` on go to `folder`, their names begin with
   /// `policy`.
-  Painter(std::filesystem::path folder, std::string policy, std::int64_t first,
-          const evaluation::Observers& others)
-      : folder_(std::move(folder)), policy_(std::move(policy)), first_(first), others_(others) {}
+  Painter(std::filesystem::path folder, std::string policy, std::int64_t first)
+      : folder_(std::move(folder)), policy_(std::move(policy)), first_(first) {}
 
   int pictures() const { return pictures_; }
 
-  bool wants_episode(std::int64_t episode) override {
-    const bool others_do = others_.episodes != nullptr && others_.episodes->wants_episode(episode);
-    return draws(episode) || others_do;
-  }
+  bool wants_episode(std::int64_t episode) override { return draws(episode); }
   void on_begin(const policy::EpisodeBegin& begin) override {
-    if (others_.episodes != nullptr) others_.episodes->on_begin(begin);
     if (draws(begin.episode)) scenes_[begin.lane] = {};
   }
   void on_decision(const evaluation::DecisionContext& context) override {
-    if (others_.decisions != nullptr) others_.decisions->on_decision(context);
     const auto drawn = scenes_.find(context.lane);
     if (drawn != scenes_.end()) drawn->second.look(context);
   }
   void on_step(const policy::StepRecord& step) override {
-    if (others_.episodes != nullptr) others_.episodes->on_step(step);
     if (draws(step.episode)) draw(step, scenes_.at(step.lane));
   }
   void on_end(const policy::EpisodeEnd& end) override {
-    if (others_.episodes != nullptr) others_.episodes->on_end(end);
     if (draws(end.episode)) scenes_.erase(end.lane);
   }
 
@@ -110,7 +101,6 @@ class Painter final : public policy::Observer, public evaluation::DecisionObserv
   std::filesystem::path folder_;
   std::string policy_;
   std::int64_t first_;
-  evaluation::Observers others_;
   std::map<int, Scene> scenes_;  // by lane, of the episodes that are drawn
   int pictures_ = 0;
 };

@@ -41,7 +41,7 @@ function(wordgaze_program name)
   file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/apps/*.cpp")
   add_executable(${name} ${sources})
   target_link_libraries(${name} PRIVATE
-    wordgaze::training wordgaze::trace wordgaze::draw CLI11::CLI11 nlohmann_json::nlohmann_json
+    wordgaze::training wordgaze::trace wordgaze::draw wordgaze::page CLI11::CLI11 nlohmann_json::nlohmann_json
     fmt::fmt-header-only wordgaze_warnings)
   target_compile_definitions(${name} PRIVATE
     WORDGAZE_VERSION="${PROJECT_VERSION}" WORDGAZE_WITH_LCM=$<BOOL:${WORDGAZE_WITH_LCM}>)

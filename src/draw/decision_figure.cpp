@@ -38,9 +38,6 @@ constexpr int kTitleLine = 34;
 constexpr int kNoteRow = 30;  // below the panels
 constexpr Font kTitle{26, true}, kHeading{15, true}, kNote{14, false}, kSmall{12.5, false};
 
-constexpr std::array<std::string_view, grid::kActions> kActionNames{
-    "turn left", "turn right", "forward", "pick up", "drop", "toggle", "done"};
-
 /// By grid::Direction.
 constexpr std::array<std::string_view, 4> kArrows{"→ right", "↓ down", "← left", "↑ up"};
 
@@ -201,24 +198,13 @@ class Figure {
 
   /// Those that the agent does not see too, and the one in its hand.
   void mark_targets_in_world(double x, double cell) {
-    const grid::World& world = scene_.world;
-    const grid::Object& carried = world.object(world.carried);
-    const auto target = [&](const grid::Object& object) {
-      return evaluation::role_of(object.type, object.color, scene_.progress) ==
-             evaluation::Role::target;
-    };
-    bool found = false;
-    for (int column = 0; column < world.grid.width(); ++column) {
-      for (int row = 0; row < world.grid.height(); ++row) {
-        const grid::Position p = grid::at(column, row);
-        if (!target(world.object_at(p)) && !(p == world.agent && target(carried))) continue;
-        canvas_.frame(x + column * cell, panels_y_ + row * cell, cell,
-                      cell < 20 ? kSmallFrame : kFrame, kTarget);
-        found = true;
-      }
+    const auto targets = babyai::target_cells(scene_.world, scene_.progress);
+    for (const grid::Position p : targets) {
+      canvas_.frame(x + p.x * cell, panels_y_ + p.y * cell, cell, cell < 20 ? kSmallFrame : kFrame,
+                    kTarget);
     }
     const double y = panels_y_ + kPanel + 20;
-    if (found) {
+    if (!targets.empty()) {
       canvas_.frame(x + kFrame, y - 11, 10, kFrame, kTarget);
       canvas_.text(x + 22, y, "target", kNote, kSoftInk);
       x += 90;
@@ -316,8 +302,8 @@ class Figure {
   }
 
   static std::string name_of_action(std::size_t action) {
-    return action < kActionNames.size() ? std::string(kActionNames[action])
-                                        : fmt::format("action {}", action);
+    return action < grid::kActionNames.size() ? std::string(grid::kActionNames[action])
+                                              : fmt::format("action {}", action);
   }
   std::string action_name() const { return name_of_action(static_cast<std::size_t>(step_.action)); }
 

@@ -1,15 +1,8 @@
 #include "wordgaze/evaluation/roles.hpp"
 
 namespace wordgaze::evaluation {
-namespace {
 
 using grid::Type;
-
-bool fits(const babyai::Description& description, Type type, grid::Color color) {
-  return description.type.value_or(type) == type && description.color.value_or(color) == color;
-}
-
-}  // namespace
 
 Role role_of(Type type, grid::Color color, const babyai::Progress& progress) {
   if (type == Type::unseen) return Role::unseen;
@@ -19,7 +12,7 @@ Role role_of(Type type, grid::Color color, const babyai::Progress& progress) {
   Role role = Role::distractor;
   const auto turn = progress.enabled();
   for (std::size_t i = 0; i < turn.size(); ++i) {
-    if (!fits(progress.object(i), type, color)) continue;
+    if (!babyai::fits(progress.object(i), type, color)) continue;
     role = std::min(role, turn[i] ? Role::target : Role::named);
   }
   return role;

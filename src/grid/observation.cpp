@@ -52,4 +52,14 @@ void observe(const World& world, ImageView image) {
   view.write(image);
 }
 
+void write_cells(const World& world, std::vector<std::uint8_t>& cells) {
+  cells.clear();
+  for (int y = 0; y < world.grid.height(); ++y) {
+    for (int x = 0; x < world.grid.width(); ++x) {
+      const auto code = code_of(world.object_at(at(x, y)));
+      cells.insert(cells.end(), code.begin(), code.end());
+    }
+  }
+}
+
 }  // namespace wordgaze::grid

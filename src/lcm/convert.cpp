@@ -40,6 +40,46 @@ episode_begin_t to_message(const policy::EpisodeBegin& record, const Origin& ori
   return message;
 }
 
+world_t to_world_message(const policy::SceneRecord& record, std::int64_t utime) {
+  require_size("cells", record.cells.size(),
+               std::size_t{3} * static_cast<std::size_t>(record.width) *
+                   static_cast<std::size_t>(record.height));
+  world_t message{};
+  message.utime = utime;
+  message.episode_id = record.episode;
+  message.env_index = record.lane;
+  message.step = record.step;
+  message.width = narrowed<std::int16_t>("width", record.width);
+  message.height = narrowed<std::int16_t>("height", record.height);
+  message.num_bytes = narrowed<std::int32_t>("num_bytes", std::ssize(record.cells));
+  message.cells.assign(record.cells.begin(), record.cells.end());
+  message.agent_x = narrowed<std::int16_t>("agent_x", record.agent_x);
+  message.agent_y = narrowed<std::int16_t>("agent_y", record.agent_y);
+  message.direction = narrowed<std::int8_t>("direction", record.direction);
+  std::ranges::copy(record.carried, message.carried);
+  return message;
+}
+
+progress_t to_progress_message(const policy::SceneRecord& record, std::int64_t utime) {
+  require_size("enabled", record.enabled.size(), record.completion.size());
+  progress_t message{};
+  message.utime = utime;
+  message.episode_id = record.episode;
+  message.env_index = record.lane;
+  message.step = record.step;
+  message.num_sub_tasks = narrowed<std::int32_t>("num_sub_tasks", std::ssize(record.completion));
+  message.completed.assign(record.completion.begin(), record.completion.end());
+  message.enabled.assign(record.enabled.begin(), record.enabled.end());
+  message.num_tokens = narrowed<std::int32_t>("num_tokens", std::ssize(record.sub_task_of));
+  message.sub_task_of.assign(record.sub_task_of.begin(), record.sub_task_of.end());
+  message.num_targets = narrowed<std::int32_t>("num_targets", std::ssize(record.targets));
+  for (const grid::Position cell : record.targets) {
+    message.target_x.push_back(narrowed<std::int16_t>("target_x", cell.x));
+    message.target_y.push_back(narrowed<std::int16_t>("target_y", cell.y));
+  }
+  return message;
+}
+
 step_t to_message(const policy::StepRecord& record, std::int64_t utime) {
   const std::size_t words = record.word_weights.size();
   require_size("word_mask", record.word_mask.size(), words);

@@ -97,6 +97,23 @@ void check(std::span<const std::uint8_t> bytes, const episode_begin_t*) {
   walk.end();
 }
 
+void check(std::span<const std::uint8_t> bytes, const world_t*) {
+  Walk walk = begin<world_t>(bytes);
+  walk.skip(8 + 8 + 4 + 4 + 2 + 2);  // utime, episode_id, env_index, step, width, height
+  walk.skip_array(walk.count(), 1);  // cells
+  walk.skip(2 + 2 + 1 + 3);          // agent_x, agent_y, direction, carried
+  walk.end();
+}
+
+void check(std::span<const std::uint8_t> bytes, const progress_t*) {
+  Walk walk = begin<progress_t>(bytes);
+  walk.skip(8 + 8 + 4 + 4);              // utime, episode_id, env_index, step
+  walk.skip_array(walk.count(), 1 + 1);  // completed, enabled
+  walk.skip_array(walk.count(), 1);      // sub_task_of
+  walk.skip_array(walk.count(), 2 + 2);  // target_x, target_y
+  walk.end();
+}
+
 void check(std::span<const std::uint8_t> bytes, const step_t*) {
   Walk walk = begin<step_t>(bytes);
   walk.skip(8 + 8 + 4 + 4);          // utime, episode_id, env_index, step

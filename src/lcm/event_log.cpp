@@ -50,6 +50,8 @@ bool decodes(std::span<const std::uint8_t> bytes) {
 /// Whether these are the bytes of a message that we send on this channel.
 bool is_ours(std::string_view channel, std::span<const std::uint8_t> bytes) {
   return (channel == kEpisodeBeginChannel && decodes<episode_begin_t>(bytes)) ||
+         (channel == kWorldChannel && decodes<world_t>(bytes)) ||
+         (channel == kProgressChannel && decodes<progress_t>(bytes)) ||
          (channel == kStepChannel && decodes<step_t>(bytes)) ||
          (channel == kEpisodeEndChannel && decodes<episode_end_t>(bytes)) ||
          (channel == kMetricsChannel && decodes<metrics_t>(bytes));
@@ -57,14 +59,26 @@ bool is_ours(std::string_view channel, std::span<const std::uint8_t> bytes) {
 
 std::error_code last_error() { return {errno, std::generic_category()}; }
 
-[[noreturn]] void fail(const std::filesystem::path& path, std::string_view cause) {
-  throw std::runtime_error(fmt::format("cannot write the LCM log '{}': {}", path.string(), cause));
+[[noreturn]] void fail(const std::filesystem::path& path, std::string_view cause,
+                       std::string_view what = "write") {
+  throw std::runtime_error(
+      fmt::format("cannot {} the LCM log '{}': {}", what, path.string(), cause));
 }
 
 }  // namespace
 
-EventLog::EventLog(const std::filesystem::path& path) : path_(path) {
+EventLog::EventLog(const std::filesystem::path& path, Access access) : path_(path) {
   struct stat status {};
+  if (access == Access::read) {
+    fd_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (fd_ < 0) fail(path, last_error().message(), "read");
+    if (::fstat(fd_, &status) != 0 || !S_ISREG(status.st_mode)) {
+      ::close(fd_);
+      fail(path, "it is not a file", "read");
+    }
+    size_ = static_cast<std::uint64_t>(status.st_size);
+    return;
+  }
   regular_ = ::stat(path.c_str(), &status) != 0 || S_ISREG(status.st_mode);
   fd_ = ::open(path.c_str(), (regular_ ? O_RDWR | O_CREAT : O_WRONLY) | O_CLOEXEC, 0666);
   if (fd_ < 0) fail(path, last_error().message());

@@ -25,7 +25,9 @@ class EventLog {
  public:
   /// Opens or makes the file, with its content as it is, and keeps other processes from writing it.
   /// Throws std::runtime_error that names the file and the cause.
-  explicit EventLog(const std::filesystem::path& path);
+  explicit EventLog(const std::filesystem::path& path) : EventLog(path, Access::write) {}
+  /// To look into a file that may be written by another process meanwhile: what it holds now.
+  static EventLog to_read(const std::filesystem::path& path) { return {path, Access::read}; }
   ~EventLog();
   EventLog(const EventLog&) = delete;
   EventLog& operator=(const EventLog&) = delete;
@@ -60,6 +62,9 @@ class EventLog {
                          std::span<const std::uint8_t> data);
 
  private:
+  enum class Access : std::uint8_t { read, write };
+  EventLog(const std::filesystem::path& path, Access access);
+
   std::size_t read(std::uint64_t place, std::span<std::uint8_t> bytes) const;
   std::optional<Event> framed_event_at(std::uint64_t place) const;
   bool continues_at(std::uint64_t place) const;

@@ -19,6 +19,13 @@ void MessageObserver::on_begin(const policy::EpisodeBegin& record) {
   send(kEpisodeBeginChannel, encode(to_message(record, origin_, now)), now);
 }
 
+void MessageObserver::on_scene(const policy::SceneRecord& record) {
+  if (!wants_episode(record.episode)) return;
+  const std::int64_t now = now_utime();
+  send(kWorldChannel, encode(to_world_message(record, now)), now);
+  send(kProgressChannel, encode(to_progress_message(record, now)), now);
+}
+
 void MessageObserver::on_step(const policy::StepRecord& record) {
   if (!wants_episode(record.episode)) return;
   const std::int64_t now = now_utime();

@@ -38,6 +38,33 @@ void Recorder::decide(const Policy& policy, int lane, const env::Environment& en
   record_.word_mask = attention_.mask;
   record_.word_attention = attention_.maps;
   record_.attention_map = attention_.gaze;
+  record_.filter = attention_.filter;
+  record_.nowhere = attention_.nowhere;
+  if (observer_->wants_scenes()) tell_scene(env);
+}
+
+void Recorder::tell_scene(const env::Environment& env) {
+  const grid::World& world = env.world();
+  const babyai::Sentence& sentence = env.sentence();
+  const babyai::Progress progress = env.progress();
+  const auto targets = babyai::target_cells(world, progress);
+  grid::write_cells(world, cells_);
+  observer_->on_scene(
+      {.episode = episode_,
+       .lane = lane_,
+       .step = record_.step,
+       .width = world.grid.width(),
+       .height = world.grid.height(),
+       .cells = cells_,
+       .agent_x = world.agent.x,
+       .agent_y = world.agent.y,
+       .direction = env.direction(),
+       .carried = grid::code_of(world.object(world.carried)),
+       .completion = progress.completion(),
+       .enabled = progress.enabled(),
+       .sub_task_of =
+           std::span(sentence.sub_task_of).first(static_cast<std::size_t>(sentence.length)),
+       .targets = targets});
 }
 
 void Recorder::step(const env::Transition& transition) {

@@ -23,6 +23,8 @@ void decode(std::span<const std::uint8_t> bytes) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::span bytes(data, size);
   decode<wordgaze::episode_begin_t>(bytes);
+  decode<wordgaze::world_t>(bytes);
+  decode<wordgaze::progress_t>(bytes);
   decode<wordgaze::step_t>(bytes);
   decode<wordgaze::episode_end_t>(bytes);
   decode<wordgaze::metrics_t>(bytes);

@@ -1,5 +1,6 @@
 // Requests to a policy server: several messages in a row, each behind its length (two bytes, most
-// significant first). What a server answers can be decoded; the same request again has the same answer.
+// significant first). What a server answers can be decoded; the same request again has the same
+// answer.
 #include <cmath>
 #include <cstddef>
 #include <span>

@@ -48,6 +48,41 @@ TEST(Convert, EpisodeBeginArrivesWhole) {
   EXPECT_EQ(message.checkpoint, "a.safetensors");
 }
 
+TEST(Convert, TheWorldArrivesWhole) {
+  const ExampleRecords records;
+  const auto message = through_lcm(to_world_message(records.scene(12, 9), 1234567));
+  EXPECT_EQ(message.utime, 1234567);
+  EXPECT_EQ(message.episode_id, 12);
+  EXPECT_EQ(message.step, 9);
+  EXPECT_EQ(message.width, 3);
+  EXPECT_EQ(message.height, 2);
+  EXPECT_TRUE(std::ranges::equal(message.cells, records.cells));
+  EXPECT_EQ(message.agent_x, 1);
+  EXPECT_EQ(message.agent_y, 0);
+  EXPECT_EQ(message.direction, 2);
+  EXPECT_EQ(message.carried[0], 5);
+  EXPECT_EQ(message.carried[1], 2);
+}
+
+TEST(Convert, TheProgressArrivesWhole) {
+  const ExampleRecords records;
+  const auto message = through_lcm(to_progress_message(records.scene(12, 9), 1234567));
+  EXPECT_EQ(message.step, 9);
+  EXPECT_TRUE(std::ranges::equal(message.completed, records.completion));
+  EXPECT_TRUE(std::ranges::equal(message.enabled, records.enabled));
+  EXPECT_EQ(message.sub_task_of, std::vector<std::int8_t>(5, 0));
+  EXPECT_EQ(message.target_x, (std::vector<std::int16_t>{1, 2}));
+  EXPECT_EQ(message.target_y, (std::vector<std::int16_t>{1, 1}));
+}
+
+TEST(Convert, RefusesAWorldWhoseSizeIsAnother) {
+  const ExampleRecords records;
+  auto scene = records.scene(1);
+  scene.width = 4;
+  EXPECT_TRUE(contains(message_of<std::invalid_argument>([&] { to_world_message(scene, 0); }),
+                       "cells has 18 values"));
+}
+
 TEST(Convert, StepArrivesWhole) {
   const ExampleRecords records;
   const auto message = through_lcm(to_message(records.step(12, 9), 1234567));

@@ -19,13 +19,15 @@ struct Examples {
     const ExampleRecords records;
     const Origin origin{"run 1", "a.safetensors"};
     begin = encode(to_message(records.begin(1), origin, 2));
+    world = encode(to_world_message(records.scene(1), 2));
+    progress = encode(to_progress_message(records.scene(1), 2));
     step = encode(to_message(records.step(1), 2));
     end = encode(to_message(records.end(1), 2));
     metrics = encode(to_message(records.update(), origin, 2));
     request = encode(to_message(records.request(), 2));
     reply = encode(to_message(records.reply(), 2));
   }
-  Bytes begin, step, end, metrics, request, reply;
+  Bytes begin, world, progress, step, end, metrics, request, reply;
 };
 
 /// Where the 4 bytes of a big-endian number stand in a message.
@@ -63,6 +65,8 @@ void expect_all_truncations_refused(const Bytes& bytes) {
 TEST(Decode, GivesBackEachTypeAndRefusesItTruncated) {
   const Examples examples;
   expect_all_truncations_refused<episode_begin_t>(examples.begin);
+  expect_all_truncations_refused<world_t>(examples.world);
+  expect_all_truncations_refused<progress_t>(examples.progress);
   expect_all_truncations_refused<step_t>(examples.step);
   expect_all_truncations_refused<episode_end_t>(examples.end);
   expect_all_truncations_refused<metrics_t>(examples.metrics);
@@ -85,6 +89,14 @@ TEST(Decode, RefusesHostileCounts) {
   for (const std::uint32_t count : {0xFFFFFFFFu, 0x20000000u, 0x80000000u, 0x7FFFFFFFu, 8u, 6u}) {
     EXPECT_THROW(decode<step_t>(with_number(examples.step, logits, count)), std::runtime_error);
     EXPECT_THROW(decode<step_t>(with_number(examples.step, words, count)), std::runtime_error);
+  }
+  const std::size_t cells = 8 + 24 + 4, sub_tasks = 8 + 24;
+  ASSERT_EQ(examples.world[cells + 3], 18);
+  ASSERT_EQ(examples.progress[sub_tasks + 3], 2);
+  for (const std::uint32_t count : {0xFFFFFFFFu, 0x20000000u, 0x80000000u, 0x7FFFFFFFu, 17u, 3u}) {
+    EXPECT_THROW(decode<world_t>(with_number(examples.world, cells, count)), std::runtime_error);
+    EXPECT_THROW(decode<progress_t>(with_number(examples.progress, sub_tasks, count)),
+                 std::runtime_error);
   }
   const std::size_t env_id = 8 + 8 + 8 + 4;
   for (const std::uint32_t length : {0u, 0xFFFFFFFFu, 0x80000000u, 0x7FFFFFFFu, 23u, 21u}) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,9 @@ struct ExampleRecords {
   std::vector<float> mask{1, 1, 0.5f, 0, 1};
   std::vector<float> attention;
   std::vector<float> map = std::vector<float>(grid::kViewCells, 0.02f);
+  std::array<std::uint8_t, 18> cells{2, 5, 0, 1, 0, 0, 2, 5, 0, 2, 5, 0, 5, 2, 0, 4, 1, 2};
+  std::array<std::uint8_t, 2> completion{1, 0}, enabled{0, 1};
+  std::array<grid::Position, 2> targets{grid::at(1, 1), grid::at(2, 1)};
   std::array<policy::Scalar, 2> scalars{{{"success_rate", 0.97}, {"entropy", 0.5}}};
 
   ExampleRecords() {
@@ -60,6 +64,22 @@ struct ExampleRecords {
             .word_mask = mask,
             .word_attention = attention,
             .attention_map = map};
+  }
+  policy::SceneRecord scene(std::int64_t episode, int number = 0) const {
+    return {.episode = episode,
+            .lane = 3,
+            .step = number,
+            .width = 3,
+            .height = 2,
+            .cells = cells,
+            .agent_x = 1,
+            .agent_y = 0,
+            .direction = 2,
+            .carried = {5, 2, 0},
+            .completion = completion,
+            .enabled = enabled,
+            .sub_task_of = std::span(sentence.sub_task_of).first(5),
+            .targets = targets};
   }
   policy::EpisodeEnd end(std::int64_t episode) const {
     return {.episode = episode,

@@ -109,7 +109,8 @@ TEST_F(PolicyServiceOnABus, CountsBytesThatAreNoRequestAndGoesOn) {
   std::mt19937 random(3);
   int foreign = 0;
   for (std::size_t size = 0; size < good.size(); ++size, ++foreign) {
-    EXPECT_TRUE(send(Bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size))).empty());
+    EXPECT_TRUE(
+        send(Bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size))).empty());
   }
   for (int n = 0; n < 200; ++n, ++foreign) {
     Bytes garbage(random() % 400);

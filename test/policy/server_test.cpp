@@ -275,15 +275,15 @@ TEST_F(PolicyServer, NamesWhatItCannotRead) {
   EXPECT_TRUE(contains(error([](Request& r) { r.direction = -2; }), "direction is -2"));
   for (const auto& code : std::vector<std::array<std::uint8_t, 3>>{
            {11, 0, 0}, {255, 255, 255}, {6, 6, 0}, {6, 0, 3}, {10, 0, 0}, {1, 1, 0}, {2, 0, 0}}) {
-    const std::string cell = error([&](Request& r) {
-      std::ranges::copy(code, r.image.begin() + 3 * (7 * 5 + 2));
-    });
+    const std::string cell =
+        error([&](Request& r) { std::ranges::copy(code, r.image.begin() + 3 * (7 * 5 + 2)); });
     EXPECT_TRUE(contains(cell, "cell (5, 2)"));
     EXPECT_TRUE(contains(cell, "type " + std::to_string(code[0]) + ", color " +
-                                   std::to_string(code[1]) + ", state " +
-                                   std::to_string(code[2])));
+                                   std::to_string(code[1]) + ", state " + std::to_string(code[2])));
   }
-  EXPECT_TRUE(contains(error([](Request& r) { r.completion = {0, 0}; }),
+  EXPECT_TRUE(contains(error([](Request& r) {
+                         r.completion = {0, 0};
+                       }),
                        "2 entries, mission 'go to the red ball' has 1 sub-tasks"));
   EXPECT_TRUE(contains(error([](Request& r) { r.completion = {2}; }), "holds 2"));
   EXPECT_TRUE(contains(error([](Request& r) { r.completion.assign(60'000, 0); }), "60000 entries"));
@@ -336,8 +336,9 @@ TEST_F(TaskServer, ReadsWhatIsDone) {
   EXPECT_TRUE(contains(error_of(r), "has 2 sub-tasks"));
   ++r.sequence;
   r.completion = {};
-  r.mission = "put the red ball next to the blue key, then put the red ball next to the red box, "
-              "then go to the red ball";
+  r.mission =
+      "put the red ball next to the blue key, then put the red ball next to the red box, "
+      "then go to the red ball";
   EXPECT_TRUE(contains(error_of(r), "has 5 sub-tasks"));
 }
 

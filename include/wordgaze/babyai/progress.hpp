@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "wordgaze/babyai/task.hpp"
 #include "wordgaze/babyai/verifier.hpp"
@@ -36,6 +37,15 @@ class Progress {
   std::array<std::uint8_t, kMax> completed_{}, enabled_{};
   std::size_t size_ = 0;
 };
+
+/// Whether a description fits a thing by its looks; where it stands is not asked.
+constexpr bool fits(const Description& description, grid::Type type, grid::Color color) {
+  return description.type.value_or(type) == type && description.color.value_or(color) == color;
+}
+
+/// The cells with an object of an enabled sub-task, column by column; the agent's own where that is
+/// in its hand.
+std::vector<grid::Position> target_cells(const grid::World& world, const Progress& progress);
 
 /// The progress of a task that a verifier watches in this world.
 inline Progress progress(const Task& task, const grid::World& world, const Verifier& verifier) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <vector>
+
 #include "wordgaze/env/environment.hpp"
 #include "wordgaze/policy/policy.hpp"
 
@@ -19,6 +21,22 @@ class DecisionObserver {
  public:
   virtual ~DecisionObserver() = default;
   virtual void on_decision(const DecisionContext& context) = 0;
+};
+
+/// Several of them as one; they must outlive this.
+class DecisionObservers final : public DecisionObserver {
+ public:
+  void add(DecisionObserver* observer) {
+    if (observer != nullptr) all_.push_back(observer);
+  }
+  DecisionObserver* or_null() { return all_.empty() ? nullptr : this; }
+
+  void on_decision(const DecisionContext& context) override {
+    for (DecisionObserver* o : all_) o->on_decision(context);
+  }
+
+ private:
+  std::vector<DecisionObserver*> all_;
 };
 
 }  // namespace wordgaze::evaluation

@@ -27,11 +27,6 @@ constexpr std::array<std::string_view, kRoles> names(Role) {
 }
 constexpr bool is_object(Role role) { return role <= Role::distractor; }
 
-/// What missions are about: keys, balls, boxes and doors.
-constexpr bool is_object(grid::Type type) {
-  return type >= grid::Type::door && type <= grid::Type::box;
-}
-
 /// What a thing is by its looks: places such as "on your left" are not asked for.
 Role role_of(grid::Type type, grid::Color color, const babyai::Progress& progress);
 

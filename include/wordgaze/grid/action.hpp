@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 namespace wordgaze::grid {
 
@@ -7,5 +9,8 @@ namespace wordgaze::grid {
 enum class Action : std::uint8_t { left, right, forward, pickup, drop, toggle, done };
 
 inline constexpr int kActions = 7;
+/// As people say it.
+inline constexpr std::array<std::string_view, kActions> kActionNames{
+    "turn left", "turn right", "forward", "pick up", "drop", "toggle", "done"};
 
 }  // namespace wordgaze::grid

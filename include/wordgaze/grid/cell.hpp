@@ -27,6 +27,9 @@ inline constexpr std::array<std::string_view, 11> kTypeNames{
 inline constexpr std::array<std::string_view, 6> kColorNames{"red",    "green",  "blue",
                                                              "purple", "yellow", "grey"};
 
+/// What missions are about: keys, balls, boxes and doors.
+constexpr bool is_object(Type type) { return type >= Type::door && type <= Type::box; }
+
 constexpr std::string_view name(Type type) { return kTypeNames[static_cast<int>(type)]; }
 constexpr std::string_view name(Color color) { return kColorNames[static_cast<int>(color)]; }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 
 #include "wordgaze/grid/cell.hpp"
@@ -27,6 +28,12 @@ struct Object {
   Position position = kNowhere;
 };
 static_assert(sizeof(Object) == 8);
+
+/// What is seen of an object: type, color, door state.
+constexpr std::array<std::uint8_t, 3> code_of(const Object& o) {
+  return {static_cast<std::uint8_t>(o.type), static_cast<std::uint8_t>(o.color),
+          static_cast<std::uint8_t>(o.state)};
+}
 
 constexpr bool can_be_carried(const Object& o) {
   return o.type == Type::key || o.type == Type::ball || o.type == Type::box;

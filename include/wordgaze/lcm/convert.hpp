@@ -13,7 +13,9 @@
 #include "wordgaze/policy/server.hpp"
 #include "wordgaze/policy_reply_t.hpp"
 #include "wordgaze/policy_request_t.hpp"
+#include "wordgaze/progress_t.hpp"
 #include "wordgaze/step_t.hpp"
+#include "wordgaze/world_t.hpp"
 
 /// Records of training and evaluation as LCM messages (lcmtypes/). `utime` is the time of sending
 /// in microseconds since 1970. A message keeps its counts next to its arrays, and the encoder that
@@ -23,6 +25,8 @@ namespace wordgaze::lcm_io {
 
 episode_begin_t to_message(const policy::EpisodeBegin& record, const Origin& origin,
                            std::int64_t utime);
+world_t to_world_message(const policy::SceneRecord& record, std::int64_t utime);
+progress_t to_progress_message(const policy::SceneRecord& record, std::int64_t utime);
 step_t to_message(const policy::StepRecord& record, std::int64_t utime);
 episode_end_t to_message(const policy::EpisodeEnd& record, std::int64_t utime);
 metrics_t to_message(const policy::UpdateRecord& record, const Origin& origin, std::int64_t utime);

@@ -9,7 +9,9 @@
 #include "wordgaze/metrics_t.hpp"
 #include "wordgaze/policy_reply_t.hpp"
 #include "wordgaze/policy_request_t.hpp"
+#include "wordgaze/progress_t.hpp"
 #include "wordgaze/step_t.hpp"
+#include "wordgaze/world_t.hpp"
 
 /// Decoding of bytes from a log or the network. The decoder that lcm-gen writes believes every
 /// count in the bytes and crashes on a hostile one: only messages that were walked through first
@@ -19,6 +21,8 @@ namespace wordgaze::lcm_io {
 namespace detail {
 /// Throws std::runtime_error unless the bytes are one whole message of the type.
 void check(std::span<const std::uint8_t> bytes, const episode_begin_t* type);
+void check(std::span<const std::uint8_t> bytes, const world_t* type);
+void check(std::span<const std::uint8_t> bytes, const progress_t* type);
 void check(std::span<const std::uint8_t> bytes, const step_t* type);
 void check(std::span<const std::uint8_t> bytes, const episode_end_t* type);
 void check(std::span<const std::uint8_t> bytes, const metrics_t* type);

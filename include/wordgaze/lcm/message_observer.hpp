@@ -15,7 +15,9 @@ class MessageObserver : public policy::Observer {
  public:
   bool wants_episode(std::int64_t episode) final { return episode % every_ == 0; }
   void on_run(std::string_view run_id) final { origin_.run_id = run_id; }
+  bool wants_scenes() const final { return true; }
   void on_begin(const policy::EpisodeBegin& record) final;
+  void on_scene(const policy::SceneRecord& record) final;
   void on_step(const policy::StepRecord& record) final;
   void on_end(const policy::EpisodeEnd& record) final;
   void on_update(const policy::UpdateRecord& record) final;

@@ -11,6 +11,8 @@ struct Origin {
 };
 
 inline constexpr std::string_view kEpisodeBeginChannel = "WORDGAZE_EPISODE_BEGIN";
+inline constexpr std::string_view kWorldChannel = "WORDGAZE_WORLD";
+inline constexpr std::string_view kProgressChannel = "WORDGAZE_PROGRESS";
 inline constexpr std::string_view kStepChannel = "WORDGAZE_STEP";
 inline constexpr std::string_view kEpisodeEndChannel = "WORDGAZE_EPISODE_END";
 inline constexpr std::string_view kMetricsChannel = "WORDGAZE_METRICS";

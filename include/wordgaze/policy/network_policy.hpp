@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "wordgaze/core/types.hpp"
 #include "wordgaze/model/agent.hpp"
@@ -51,16 +52,21 @@ class NetworkPolicy final : public Policy {
   }
 
   Matrix<float> policies_for(int lane, const model::CellMatrix& views) override {
-    Question& q = ask(lane, views);
-    const auto possible = logits(lane).size();
-    Matrix<float> policies = q.outputs.logits;
-    for (Index n = 0; n < policies.cols(); ++n) {
-      const std::span<float> column(policies.col(n).data(), possible);
-      nn::Categorical<float>::log_softmax(column, column);
+    return policies(lane, ask(lane, views));
+  }
+  Matrix<float> policies_for(int lane, std::span<const babyai::Sentence> sentences) override {
+    model::Missions told;
+    std::vector<int> mission_of;
+    for (const babyai::Sentence& sentence : sentences) {
+      model::Mission mission = missions()[frames().mission(lane)];  // with what is done of it
+      static_cast<babyai::Sentence&>(mission) = sentence;
+      mission_of.push_back(told.index_of(mission));
     }
-    policies = policies.array().exp();
-    policies.bottomRows(grid::kActions - static_cast<Index>(possible)).setZero();
-    return policies;
+    Matrix<float> features(text().rows(), told.size());
+    encode_text(told, features);
+    const auto count = static_cast<Index>(sentences.size());
+    const model::CellMatrix views = frames().cells.col(lane).replicate(1, count);
+    return policies(lane, ask(lane, views, mission_of, told, features));
   }
 
   Saliency saliency(int lane, std::size_t action) override {
@@ -113,6 +119,13 @@ class NetworkPolicy final : public Policy {
 
   /// The network again on other views of a lane.
   Question& ask(int lane, const model::CellMatrix& views) {
+    const std::vector<int> mission_of(static_cast<std::size_t>(views.cols()),
+                                      frames().mission(lane));
+    return ask(lane, views, mission_of, missions(), text());
+  }
+  /// And on other missions.
+  Question& ask(int lane, const model::CellMatrix& views, const std::vector<int>& mission_of,
+                const model::Missions& told, const Matrix<float>& features) {
     if (question_ == nullptr) {
       question_ = std::make_unique<Question>();
       question_->grads = agent_->make_params();
@@ -121,13 +134,25 @@ class NetworkPolicy final : public Policy {
     const nn::SequenceShape shape{1, views.cols()};
     if (q.frames.shape != shape) q.frames.resize(agent_->config, shape);
     q.frames.cells = views;
-    q.frames.mission_of.assign(static_cast<std::size_t>(views.cols()), frames().mission(lane));
+    q.frames.mission_of = mission_of;
     q.frames.completion.colwise() = frames().completion.col(lane);
     // The memory that the decision started from; empty where it began an episode.
     q.frames.start.h.colwise() = decided_.memory.h_prev.col(lane);
     q.frames.start.c.colwise() = decided_.memory.c_prev.col(lane);
-    agent_->forward(*weights_, q.frames, missions(), text(), q.cache, q.outputs);
+    agent_->forward(*weights_, q.frames, told, features, q.cache, q.outputs);
     return q;
+  }
+  /// What was asked, as probabilities.
+  Matrix<float> policies(int lane, const Question& q) const {
+    const auto possible = logits(lane).size();
+    Matrix<float> policies = q.outputs.logits;
+    for (Index n = 0; n < policies.cols(); ++n) {
+      const std::span<float> column(policies.col(n).data(), possible);
+      nn::Categorical<float>::log_softmax(column, column);
+    }
+    policies = policies.array().exp();
+    policies.bottomRows(grid::kActions - static_cast<Index>(possible)).setZero();
+    return policies;
   }
 
   const Agent* agent_;

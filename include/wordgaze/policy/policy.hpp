@@ -89,6 +89,8 @@ class Policy {
   /// of its own; 0 for actions that are not possible. Mission, completion vector and memory are
   /// those of the decision.
   virtual Matrix<float> policies_for(int lane, const model::CellMatrix& views) = 0;
+  /// The same, had it been told one of these N missions now in place of its own.
+  virtual Matrix<float> policies_for(int lane, std::span<const babyai::Sentence> missions) = 0;
   /// How the logit of an action depends on each cell of the view as it reaches the memory, F_c [C];
   /// without attention that is the visual encoding itself.
   struct Saliency {

@@ -29,12 +29,15 @@ class Recorder {
   void end(const EpisodeEnd& end) { observer_->on_end(end); }
 
  private:
+  void tell_scene(const env::Environment& env);
+
   Observer* observer_;
   std::int64_t episode_ = 0;
   int lane_ = 0;  // as reported
   AttentionRecord attention_;
   std::array<std::uint8_t, grid::kImageBytes> image_{};
   std::vector<float> logits_;
+  std::vector<std::uint8_t> cells_;  // of the scene
   StepRecord record_{.image = image_};
 };
 
