@@ -1,4 +1,3 @@
-#if WORDGAZE_WITH_LCM
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -11,6 +10,7 @@
 namespace wordgaze {
 namespace {
 
+#if WORDGAZE_WITH_LCM
 const std::string kModels = WORDGAZE_SOURCE_DIR "/models/";
 
 struct Serve : ::testing::Test {
@@ -102,6 +102,11 @@ TEST_F(Serve, IsRefusedWhatItCannotServe) {
   EXPECT_TRUE(refused(run("wordgaze serve"), "--checkpoint"));
 }
 
+#else
+TEST(Serve, SaysThatItWasBuiltWithoutLcm) {
+  EXPECT_TRUE(refused(Shell()("wordgaze serve --checkpoint ckpt"), "without LCM"));
+}
+#endif
+
 }  // namespace
 }  // namespace wordgaze
-#endif
