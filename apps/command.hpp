@@ -40,5 +40,6 @@ Command bench_command();
 Command levels_command();
 Command page_command();
 Command play_command();
+Command serve_command();
 
 }  // namespace wordgaze::apps

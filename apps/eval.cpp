@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include "command.hpp"
 #include "listeners.hpp"
 #include "output.hpp"
+#include "pace.hpp"
 #include "pictures.hpp"
 #include "transparency_report.hpp"
 #include "watch.hpp"
@@ -39,7 +41,8 @@ struct Arguments {
   int episodes = 1000, page_episodes = 100;
   std::uint64_t seed = 1'000'000;
   int threads = 0;
-  bool greedy = false, sample = false, transparency = false;
+  bool greedy = false, sample = false, transparency = false, live = false;
+  double hz = 5;
   apps::Watch watch;
   apps::Listeners::Options listeners;
 };
@@ -77,6 +80,12 @@ void add_options(CLI::App& app, Arguments& a) {
       ->check(apps::whole_number(1, 100'000));
   apps::Watch::add_options(app, a.watch);
   apps::Listeners::add_options(app, a.listeners, "LCM log of every step");
+  app.add_flag(
+      "--live", a.live,
+      "one episode at a time, at a pace that can be watched on --lcm-url; --watch does so too");
+  app.add_option("--hz", a.hz, "steps a second of --live and --watch")
+      ->check(CLI::Range(0.01, 1000.0))
+      ->capture_default_str();
 }
 
 /// The level with other room sizes and numbers of objects.
@@ -181,17 +190,22 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
   const auto live = a.watch.open({.title = page_title(a.checkpoint, levels.front())});
   int evaluations = 0, pictures = 0;
   Team team(threads(a));
+  apps::Pace pace(a.hz);
   for (const auto& level : levels) {
     const policy::Agent agent(config.model, policy::alphabet_of(level));
     const auto weights = agent.make_weights(trained.weights.params);
     for (const bool greedy : {false, true}) {
       if (greedy ? !a.greedy : !a.sample) continue;
-      const Evaluation evaluation{.level = level,
-                                  .episodes = a.episodes,
-                                  .seed = a.seed,
-                                  .greedy = greedy,
-                                  .first = std::int64_t{evaluations} * a.episodes,
-                                  .between_steps = io::StopSignals::check};
+      Evaluation evaluation{.level = level,
+                            .episodes = a.episodes,
+                            .seed = a.seed,
+                            .greedy = greedy,
+                            .first = std::int64_t{evaluations} * a.episodes,
+                            .between_steps = io::StopSignals::check};
+      if (a.live || a.watch.wanted) {
+        evaluation.lanes = 1;
+        evaluation.between_steps = [&] { pace.wait(); };
+      }
       const char* policy = greedy ? "greedy" : "sampled";
       listeners.on_run(fmt::format("eval-{}-{}", ++evaluations, policy));
       std::optional<evaluation::Transparency> transparency;
@@ -265,6 +279,9 @@ void evaluate_policy(const Arguments& a, nlohmann::ordered_json& report) {
 }
 
 int run(const Arguments& a) {
+  require(!a.live || !a.listeners.url.empty(),
+          "--live is for somebody who watches: say where, with --lcm-url");
+  require(std::isfinite(a.hz), "--hz {}: expected steps a second, 0.01 to 1000", a.hz);
   if (!a.pictures.empty()) std::filesystem::create_directories(a.pictures);  // others may lie there
   io::check_outputs(std::array{io::NamedPath{"--json", a.json}, io::NamedPath{"--page", a.page},
                                io::NamedPath{"--lcm-log", a.listeners.log}},

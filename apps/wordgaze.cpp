@@ -56,7 +56,7 @@ int run_alone(const apps::Command& command, int argc, char** argv) {
 int run_command(const std::string& called, int argc, char** argv) {
   const std::array commands{apps::train_command(), apps::eval_command(),   apps::trace_command(),
                             apps::bench_command(), apps::levels_command(), apps::page_command(),
-                            apps::play_command()};
+                            apps::play_command(),  apps::serve_command()};
   const auto named = std::ranges::find(commands, called, &apps::Command::name);
   if (named != commands.end()) return run_alone(*named, argc, argv);
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "wordgaze/babyai/wording.hpp"
 #include "wordgaze/core/formatted.hpp"
 
 namespace wordgaze::babyai {
@@ -152,5 +153,16 @@ class Parser {
 }  // namespace
 
 Instruction parse_mission(std::string_view text) { return Parser(text).mission(); }
+
+Sentence parse_sentence(std::string_view text) {
+  Sentence sentence = sentence_of(text);
+  try {
+    // Word by word the same but for the articles, which say nothing.
+    sentence.sub_task_of = wording(parse_mission(text), Meaning{}).sub_task_of;
+  } catch (const std::invalid_argument&) {
+    // Not of the Baby language.
+  }
+  return sentence;
+}
 
 }  // namespace wordgaze::babyai

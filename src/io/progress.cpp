@@ -38,7 +38,7 @@ Progress::Progress(std::string unit, std::int64_t done, std::int64_t total, Opti
       terminal_(::isatty(::fileno(options_.out)) != 0),
       start_(options_.clock()),
       next_(start_) {
-  require(total > 0, "progress of {}: expected a total above 0; came {}", unit_, total);
+  require(total >= 0, "progress of {}: expected a total of 0 or more; came {}", unit_, total);
 }
 
 Progress::~Progress() {
@@ -46,15 +46,20 @@ Progress::~Progress() {
 }
 
 std::string Progress::line(std::int64_t done, std::string_view details, double now) const {
-  std::string text = fmt::format("{} {} / {} ({:.0f} %)", unit_, done, total_,
-                                 100.0 * static_cast<double>(done) / static_cast<double>(total_));
+  std::string text = fmt::format("{} {}", unit_, done);
+  if (total_ > 0) {
+    text += fmt::format(" / {} ({:.0f} %)", total_,
+                        100.0 * static_cast<double>(done) / static_cast<double>(total_));
+  }
   const double seconds = now - start_;
   if (done > done_at_start_ && seconds > 0) {
     const double rate = static_cast<double>(done - done_at_start_) / seconds;
     text += fmt::format(", {:.0f} / s", rate);
-    text += done < total_
-                ? fmt::format(", {} left", duration_text(static_cast<double>(total_ - done) / rate))
-                : fmt::format(", took {}", duration_text(seconds));
+    if (total_ > 0) {
+      text += done < total_ ? fmt::format(", {} left",
+                                          duration_text(static_cast<double>(total_ - done) / rate))
+                            : fmt::format(", took {}", duration_text(seconds));
+    }
   }
   if (!details.empty()) text.append(", ").append(details);
   return text;
@@ -62,9 +67,16 @@ std::string Progress::line(std::int64_t done, std::string_view details, double n
 
 void Progress::update(std::int64_t done, std::string_view details) {
   const double now = options_.clock();
-  if (now < next_ && done < total_) return;
+  const bool endless = total_ == 0;
+  if (now < next_ && (endless || done < total_)) return;
   next_ = now + (terminal_ ? options_.terminal_interval_s : options_.plain_interval_s);
   std::string text = line(done, details, now);
+  const bool idle = endless && done == done_at_start_;
+  if (endless) {
+    start_ = now;
+    done_at_start_ = done;
+  }
+  if (idle && !terminal_) return;
   if (terminal_) {
     text.resize(std::min(text.size(), width(options_.out) - 1));
     print(options_.out, fmt::format("\r{}\033[K", text));

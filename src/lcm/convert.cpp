@@ -141,4 +141,53 @@ metrics_t to_message(const policy::UpdateRecord& record, const Origin& origin, s
   return message;
 }
 
+policy_request_t to_message(const policy::Request& request, std::int64_t utime) {
+  policy_request_t message{};
+  message.utime = utime;
+  message.client_id = request.client;
+  message.seq = request.sequence;
+  message.reset = request.reset;
+  message.mission = request.mission;
+  std::ranges::copy(request.image, message.image);
+  message.direction = narrowed<std::int8_t>("direction", request.direction);
+  message.num_completion = narrowed<std::int32_t>("num_completion", std::ssize(request.completion));
+  message.completion = request.completion;
+  return message;
+}
+
+policy::Request to_request(const policy_request_t& message) {
+  policy::Request request{.client = message.client_id,
+                          .sequence = message.seq,
+                          .reset = message.reset != 0,
+                          .mission = message.mission,
+                          .direction = message.direction,
+                          .completion = message.completion};
+  std::ranges::copy(message.image, request.image.begin());
+  return request;
+}
+
+policy_reply_t to_message(const policy::Reply& reply, std::int64_t utime) {
+  policy_reply_t message{};
+  message.utime = utime;
+  message.client_id = reply.client;
+  message.seq = reply.sequence;
+  message.error = reply.error;
+  message.action = narrowed<std::int8_t>("action", reply.action);
+  message.num_actions = narrowed<std::int32_t>("num_actions", std::ssize(reply.probabilities));
+  message.probabilities = reply.probabilities;
+  message.value = reply.value;
+  const std::size_t words = reply.word_weights.size();
+  require_size("word_mask", reply.word_mask.size(), words);
+  if (words > 0) require_size("tokens", static_cast<std::size_t>(reply.sentence.length), words);
+  message.num_tokens = narrowed<std::int32_t>("num_tokens", std::ssize(reply.word_weights));
+  for (std::size_t i = 0; i < words; ++i) {
+    message.tokens.emplace_back(babyai::word(reply.sentence.words[i]));
+  }
+  message.word_weights = reply.word_weights;
+  message.word_mask = reply.word_mask;
+  std::ranges::copy(reply.map, message.attention_map);
+  message.nowhere = reply.nowhere;
+  return message;
+}
+
 }  // namespace wordgaze::lcm_io

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <string_view>
+#include <vector>
 
 namespace wordgaze::lcm_io::detail {
 namespace {
@@ -25,6 +28,15 @@ class Walk {
            "a count is negative");
     return number;
   }
+  /// The same of a count that may be -1, for 0.
+  std::size_t count_or_none() {
+    if (rest_.size() < 4 || std::ranges::any_of(rest_.first(4), [](auto b) { return b != 0xFF; })) {
+      return count();
+    }
+    skip(4);
+    return 0;
+  }
+  std::size_t left() const { return rest_.size(); }
   void skip_string() {
     const std::size_t length = count();
     expect(length > 0, "a string has no end");
@@ -131,4 +143,46 @@ void check(std::span<const std::uint8_t> bytes, const metrics_t*) {
   walk.end();
 }
 
+void check(std::span<const std::uint8_t> bytes, const policy_reply_t*) {
+  Walk walk = begin<policy_reply_t>(bytes);
+  walk.skip(8 + 8 + 8);              // utime, client_id, seq
+  walk.skip_string();                // error
+  walk.skip(1);                      // action
+  walk.skip_array(walk.count(), 4);  // probabilities
+  walk.skip(4);                      // value
+  const std::size_t tokens = walk.count();
+  walk.skip_strings(tokens);
+  walk.skip_array(tokens, 4 + 4);  // word_weights, word_mask
+  walk.skip(4 * 49 + 4);           // attention_map, nowhere
+  walk.end();
+}
+
+namespace {
+
+/// Checks a request, and gives back where the number of completions stands.
+std::size_t place_of_completions(std::span<const std::uint8_t> bytes) {
+  Walk walk = begin<policy_request_t>(bytes);
+  walk.skip(8 + 8 + 8 + 1);  // utime, client_id, seq, reset
+  walk.skip_string();        // mission
+  walk.skip(147 + 1);        // image, direction
+  const std::size_t place = bytes.size() - walk.left();
+  walk.skip_array(walk.count_or_none(), 1);  // completion
+  walk.end();
+  return place;
+}
+
+}  // namespace
 }  // namespace wordgaze::lcm_io::detail
+
+template <>
+wordgaze::policy_request_t wordgaze::lcm_io::decode<wordgaze::policy_request_t>(
+    std::span<const std::uint8_t> bytes) {
+  const std::size_t place = detail::place_of_completions(bytes);
+  std::vector<std::uint8_t> plain(bytes.begin(), bytes.end());
+  if (plain[place] == 0xFF) std::fill_n(plain.begin() + static_cast<std::ptrdiff_t>(place), 4, 0);
+  policy_request_t message{};
+  if (message.decode(plain.data(), 0, static_cast<int>(plain.size())) < 0) {
+    throw std::runtime_error("cannot decode policy_request_t");
+  }
+  return message;
+}

@@ -1,40 +1,15 @@
 #include "wordgaze/lcm/live_publisher.hpp"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <atomic>
-#include <cerrno>
-#include <lcm/lcm-cpp.hpp>
 #include <thread>
 #include <utility>
 
 #include "bounded_queue.hpp"
-#include "url.hpp"
-#include "wordgaze/core/require.hpp"
+#include "bus.hpp"
 
 namespace wordgaze::lcm_io {
-namespace {
-
-/// Whether packets to the group have a way out. LCM itself would only print and return nothing.
-bool has_route(const std::string& group) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(7667);
-  ::inet_pton(AF_INET, group.c_str(), &address.sin_addr);
-  const int fd = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
-  const bool unreachable =
-      ::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 &&
-      errno == ENETUNREACH;
-  ::close(fd);
-  return !unreachable;
-}
-
-}  // namespace
-
 struct LivePublisher::Worker {
   struct Message {
     std::string channel;
@@ -72,18 +47,14 @@ LivePublisher::LivePublisher(Publish publish, Origin origin, int every, std::siz
 LivePublisher::LivePublisher(const std::string& url, Origin origin, int every,
                              std::size_t queue_capacity)
     : MessageObserver(std::move(origin), every), worker_(std::make_unique<Worker>(queue_capacity)) {
-  if (!has_route(multicast_group(url))) {
-    worker_->problem = fmt::format(
-        "nothing is published on {}: there is no route for multicast; add one with "
-        "'ip route add 224.0.0.0/4 dev lo'",
-        url);
+  if (const std::string missing = missing_route(url); !missing.empty()) {
+    worker_->problem = fmt::format("nothing is published on {}: {}", url, missing);
     return;
   }
-  const auto bus = std::make_shared<lcm::LCM>(url);
-  require(bus->good(), "cannot open the LCM URL '{}'; LCM says why on standard error", url);
-  worker_->start([bus](const std::string& channel, std::span<const std::uint8_t> bytes) {
-    return bus->publish(channel, bytes.data(), static_cast<unsigned>(bytes.size())) == 0;
-  });
+  worker_->start(
+      [bus = open_bus(url)](const std::string& channel, std::span<const std::uint8_t> bytes) {
+        return bus->publish(channel, bytes.data(), static_cast<unsigned>(bytes.size())) == 0;
+      });
 }
 
 LivePublisher::~LivePublisher() = default;

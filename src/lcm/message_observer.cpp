@@ -1,21 +1,12 @@
 #include "wordgaze/lcm/message_observer.hpp"
 
-#include <chrono>
 #include <utility>
 
+#include "clock.hpp"
 #include "wordgaze/core/require.hpp"
 #include "wordgaze/lcm/convert.hpp"
 
 namespace wordgaze::lcm_io {
-namespace {
-
-std::int64_t now_utime() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::microseconds>(now).count();
-}
-
-}  // namespace
-
 MessageObserver::MessageObserver(Origin origin, int every)
     : origin_(std::move(origin)), every_(every) {
   require(every > 0, "LCM: expected every k-th episode with k above 0; came {}", every);

@@ -73,6 +73,8 @@ struct LivePage::Server {
           options.address, options.port));
     }
     thread = std::thread([this] { http.listen_after_bind(); });
+    // stop() does nothing before it runs.
+    while (!http.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 
   ~Server() {

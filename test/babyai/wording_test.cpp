@@ -72,5 +72,10 @@ TEST(Sentence, IsReadFromText) {
   EXPECT_EQ(sentence_of("").length, 0);
 }
 
+TEST(Sentence, NamesAllWordsThatAreUnknown) {
+  EXPECT_EQ(message_of<std::invalid_argument>([] { sentence_of("fly to the moon"); }),
+            "mission 'fly to the moon': not in the vocabulary: 'fly', 'moon'");
+}
+
 }  // namespace
 }  // namespace wordgaze::babyai

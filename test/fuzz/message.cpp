@@ -28,5 +28,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   decode<wordgaze::step_t>(bytes);
   decode<wordgaze::episode_end_t>(bytes);
   decode<wordgaze::metrics_t>(bytes);
+  decode<wordgaze::policy_reply_t>(bytes);
   return 0;
 }

@@ -126,8 +126,26 @@ TEST_F(ProgressLine, IsRewrittenAndCutToTheWidthOfATerminal) {
             "\rframes 10 / 100 (10 %), 10 / \033[K\r\n");
 }
 
-TEST(Progress, RefusesATotalOfNothing) {
-  EXPECT_THROW(Progress("frames", 0, 0), std::invalid_argument);
+TEST_F(ProgressLine, WithoutAnEndHasTheRateOfNowAndIsSilentWhileIdle) {
+  const TemporaryFolder folder;
+  std::FILE* out = std::fopen((folder / "out").c_str(), "w");
+  {
+    Progress progress("requests", 0, 0, options(out));
+    const std::vector<std::pair<int, int>> updates{
+        {1000, 0}, {1003, 20}, {1010, 50}, {1020, 50}, {1030, 50}, {1040, 1050}, {1041, 1060}};
+    for (const auto& [now, done] : updates) {
+      now_ = now;
+      progress.update(done, "no errors");
+    }
+  }
+  std::fclose(out);
+  EXPECT_EQ(read_file(folder / "out"),
+            "requests 50, 5 / s, no errors\n"
+            "requests 1050, 100 / s, no errors\n");
+}
+
+TEST(Progress, RefusesATotalBelowNothing) {
+  EXPECT_THROW(Progress("frames", 0, -1), std::invalid_argument);
 }
 
 }  // namespace

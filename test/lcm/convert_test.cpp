@@ -161,5 +161,40 @@ TEST(Convert, RefusesArraysThatDoNotFitTogether) {
   EXPECT_TRUE(contains(refusal([](auto& r) { r.action = 128; }), "action is 128"));
 }
 
+TEST(Convert, PolicyRequestArrivesWhole) {
+  const ExampleRecords records;
+  const auto message = through_lcm(to_message(records.request(), 1234567));
+  EXPECT_EQ(message.utime, 1234567);
+  EXPECT_EQ(message.client_id, 77);
+  EXPECT_EQ(message.seq, -5);
+  EXPECT_EQ(message.num_completion, 2);
+  EXPECT_EQ(to_request(message), records.request());
+}
+
+TEST(Convert, PolicyReplyArrivesWhole) {
+  const ExampleRecords records;
+  const auto message = through_lcm(to_message(records.reply(), 1234567));
+  EXPECT_EQ(message.utime, 1234567);
+  EXPECT_EQ(message.client_id, 77);
+  EXPECT_EQ(message.seq, -5);
+  EXPECT_EQ(message.error, "none");
+  EXPECT_EQ(message.action, 2);
+  EXPECT_EQ(message.num_actions, 3);
+  EXPECT_EQ(message.probabilities, (std::vector<float>{0.5f, 0.25f, 0.25f}));
+  EXPECT_EQ(message.value, 0.75f);
+  EXPECT_EQ(message.num_tokens, 5);
+  EXPECT_EQ(message.tokens, (std::vector<std::string>{"pick", "up", "the", "blue", "key"}));
+  EXPECT_EQ(message.word_weights, records.weights);
+  EXPECT_EQ(message.word_mask, records.mask);
+  EXPECT_EQ(message.attention_map[48], 0.5f);
+  EXPECT_EQ(message.nowhere, 0.125f);
+  policy::Reply torn = records.reply();
+  torn.word_mask.pop_back();
+  EXPECT_THROW(to_message(torn, 1), std::invalid_argument);
+  torn.word_mask.clear();
+  torn.word_weights.clear();
+  EXPECT_EQ(to_message(torn, 1).num_tokens, 0);  // without attention
+}
+
 }  // namespace
 }  // namespace wordgaze::lcm_io

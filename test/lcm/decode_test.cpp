@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <random>
 
 #include "lcm/example_records.hpp"
@@ -23,8 +24,10 @@ struct Examples {
     step = encode(to_message(records.step(1), 2));
     end = encode(to_message(records.end(1), 2));
     metrics = encode(to_message(records.update(), origin, 2));
+    request = encode(to_message(records.request(), 2));
+    reply = encode(to_message(records.reply(), 2));
   }
-  Bytes begin, world, progress, step, end, metrics;
+  Bytes begin, world, progress, step, end, metrics, request, reply;
 };
 
 /// Where the 4 bytes of a big-endian number stand in a message.
@@ -67,6 +70,8 @@ TEST(Decode, GivesBackEachTypeAndRefusesItTruncated) {
   expect_all_truncations_refused<step_t>(examples.step);
   expect_all_truncations_refused<episode_end_t>(examples.end);
   expect_all_truncations_refused<metrics_t>(examples.metrics);
+  expect_all_truncations_refused<policy_request_t>(examples.request);
+  expect_all_truncations_refused<policy_reply_t>(examples.reply);
 }
 
 TEST(Decode, RefusesAnotherType) {
@@ -98,6 +103,24 @@ TEST(Decode, RefusesHostileCounts) {
     EXPECT_THROW(decode<episode_begin_t>(with_number(examples.begin, env_id, length)),
                  std::runtime_error);
   }
+  const std::size_t mission = 8 + 3 * 8 + 1, completions = examples.request.size() - 2 - 4;
+  ASSERT_EQ(examples.request[completions + 3], 2);
+  for (const std::uint32_t count : {0xFFFFFFFEu, 0xFFFFFFFFu, 0x80000000u, 0x20000000u, 0u, 3u}) {
+    EXPECT_THROW(decode<policy_request_t>(with_number(examples.request, mission, count)),
+                 std::runtime_error);
+    EXPECT_THROW(decode<policy_request_t>(with_number(examples.request, completions, count)),
+                 std::runtime_error);
+  }
+}
+
+TEST(Decode, TakesMinusOneCompletionsForNone) {
+  Bytes bytes = Examples().request;
+  bytes.resize(bytes.size() - 2);
+  const Bytes none = with_number(bytes, bytes.size() - 4, 0);
+  EXPECT_EQ(encode(decode<policy_request_t>(with_number(bytes, bytes.size() - 4, 0xFFFFFFFFu))),
+            none);
+  EXPECT_TRUE(contains(refusal<policy_request_t>(with_number(bytes, bytes.size() - 4, 0xFFFFFFFEu)),
+                       "a count is negative"));
 }
 
 TEST(Decode, SurvivesRandomDamage) {

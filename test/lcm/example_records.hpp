@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "wordgaze/policy/observer.hpp"
+#include "wordgaze/policy/server.hpp"
 
 namespace wordgaze::lcm_io {
 
@@ -90,6 +91,29 @@ struct ExampleRecords {
   }
   policy::UpdateRecord update(std::int64_t number = 7) const {
     return {.update = number, .frames = 1280 * number, .scalars = scalars};
+  }
+  policy::Request request() const {
+    return {.client = 77,
+            .sequence = -5,
+            .reset = true,
+            .mission = mission,
+            .image = image,
+            .direction = 3,
+            .completion = {1, 0}};
+  }
+  policy::Reply reply() const {
+    policy::Reply reply{.client = 77,
+                        .sequence = -5,
+                        .error = "none",
+                        .action = 2,
+                        .probabilities = {0.5f, 0.25f, 0.25f},
+                        .value = 0.75f,
+                        .sentence = sentence,
+                        .word_weights = weights,
+                        .word_mask = mask,
+                        .nowhere = 0.125f};
+    reply.map[48] = 0.5f;
+    return reply;
   }
 };
 

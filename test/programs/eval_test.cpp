@@ -278,6 +278,56 @@ TEST_F(Eval, LogsWhatHappenedAndWhatWasSeen) {
   }
   EXPECT_EQ(ended, 20);
 }
+
+// The live view may have no way out here; the log hears the same.
+TEST_F(Eval, LiveIsOneEpisodeAtATimeAtItsPace) {
+  const std::string eval =
+      "eval --checkpoint '" WORDGAZE_SOURCE_DIR
+      "/models/single-attention.safetensors' --episodes 4 --greedy --seed 500 ";
+  const auto live = run(eval +
+                        "--lcm-url 'udpm://239.255.76.69:29999?ttl=0' --live --hz 100 "
+                        "--lcm-log live.lcmlog");
+  ASSERT_TRUE(succeeded(live));
+  EXPECT_EQ(live.out, run(eval).out);
+  lcm::LogFile log((run.folder() / "live.lcmlog").string(), "r");
+  ASSERT_TRUE(log.good());
+  std::int64_t running = -1, before = 0, first = 0;
+  int steps = 0, ended = 0;
+  while (const lcm::LogEvent* event = log.readNextEvent()) {
+    if (event->channel == "WORDGAZE_EPISODE_BEGIN") {
+      EXPECT_EQ(running, -1);
+      running = decoded<episode_begin_t>(*event).episode_id;
+    } else if (event->channel == "WORDGAZE_STEP") {
+      const auto step = decoded<step_t>(*event);
+      EXPECT_EQ(step.episode_id, running);
+      if (first == 0) first = step.utime;
+      before = step.utime;
+      ++steps;
+    } else if (event->channel == "WORDGAZE_EPISODE_END") {
+      running = -1;
+      ++ended;
+    }
+  }
+  EXPECT_EQ(ended, 4);
+  ASSERT_GT(steps, 10);
+  EXPECT_GE(static_cast<double>(before - first), 1e4 * (steps - 1) - 5e3);  // microseconds
+}
+
+TEST_F(Eval, LiveStopsForASignalBetweenTwoSteps) {
+  const auto stopped =
+      run("timeout --foreground --preserve-status --signal=INT 1 eval --checkpoint ckpt --live "
+          "--hz 0.01 --lcm-url 'udpm://239.255.76.69:29999?ttl=0'");
+  EXPECT_EQ(stopped.status, 130) << describe(stopped);
+}
+
+TEST_F(Eval, LiveIsForWhoeverWatches) {
+  const std::string eval = "eval --checkpoint ckpt --episodes 1 ";
+  EXPECT_TRUE(refused(run(eval + "--live"), "--live", "--lcm-url"));
+  EXPECT_TRUE(refused(run(eval + "--hz 5"), "--hz", "--live"));
+  for (const std::string hz : {"0", "-1", "1e9", "nan", "inf", "x"}) {
+    EXPECT_TRUE(refused(run(eval + "--live --lcm-url udpm:// --hz " + hz), "--hz")) << hz;
+  }
+}
 #else
 TEST_F(Eval, SaysThatItWasBuiltWithoutLcm) {
   EXPECT_TRUE(refused(run("eval --checkpoint ckpt --lcm-log e.lcmlog"), "without LCM"));

@@ -2,6 +2,7 @@
 #include <string_view>
 
 #include "wordgaze/babyai/instruction.hpp"
+#include "wordgaze/babyai/sentence.hpp"
 
 namespace wordgaze::babyai {
 
@@ -16,5 +17,9 @@ namespace wordgaze::babyai {
 /// The article says nothing: "the" and "a" mean whatever fits. Throws std::invalid_argument that
 /// points at the first word outside the grammar.
 Instruction parse_mission(std::string_view text);
+
+/// The words of a mission, each with its sub-task where it is of the Baby language; those of other
+/// missions ("get to the green goal square") are all of one sub-task. Throws as sentence_of() does.
+Sentence parse_sentence(std::string_view text);
 
 }  // namespace wordgaze::babyai

@@ -46,21 +46,26 @@ inline std::string text(const Sentence& sentence) {
 }
 
 /// The words of a text in the vocabulary, all of one sub-task. Throws std::invalid_argument that
-/// names the word that is not in the vocabulary.
+/// names the words that are not in the vocabulary.
 inline Sentence sentence_of(std::string_view text, int sub_task = 0) {
   Sentence sentence;
+  std::string unknown;
   std::size_t start = 0;
   while ((start = text.find_first_not_of(' ', start)) != text.npos) {
     // A comma is a word of its own.
     const std::size_t end = text[start] == ',' ? start + 1 : text.find_first_of(" ,", start);
     const std::string_view part = text.substr(start, end - start);
+    start = end;
     const std::optional<WordId> id = word_id(part);
-    require(id.has_value(), "mission '{}': '{}' is not in the vocabulary", text, part);
+    if (!id) {
+      unknown.append(unknown.empty() ? "'" : ", '").append(part).append("'");
+      continue;
+    }
     require(sentence.length < kMaxMissionWords, "mission '{}': more than {} words", text,
             kMaxMissionWords);
     sentence.append(*id, sub_task);
-    start = end;
   }
+  require(unknown.empty(), "mission '{}': not in the vocabulary: {}", text, unknown);
   return sentence;
 }
 

@@ -13,9 +13,9 @@ namespace wordgaze::io {
 std::string duration_text(double seconds);
 
 /// How far a long job is: "frames 1200000 / 2000000 (60 %), 9870 / s, 1:21 left, " and the caller's
-/// details. On a terminal one line that is rewritten; else (a file, a pipe) a line now and then.
-/// It is decoration: where it cannot be written (a full disk, a terminal or pipe that is closed),
-/// nothing happens.
+/// details. A job without an end, of total 0, says "requests 1200, 20 / s, ". On a terminal one
+/// line that is rewritten; else (a file, a pipe) a line now and then. It is decoration: where it
+/// cannot be written (a full disk, a terminal or pipe that is closed), nothing happens.
 class Progress {
  public:
   using Clock = std::function<double()>;  ///< seconds from any beginning
@@ -30,7 +30,7 @@ class Progress {
     };
   };
 
-  /// `done` of `total` units are already done (a run that goes on).
+  /// `done` of `total` units are already done (a run that goes on); total 0: there is no end.
   Progress(std::string unit, std::int64_t done, std::int64_t total)
       : Progress(std::move(unit), done, total, Options{}) {}
   Progress(std::string unit, std::int64_t done, std::int64_t total, Options options);
@@ -39,7 +39,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Shows the line if it is time to; the last unit is always shown.
+  /// Shows the line if it is time to; the last unit is always shown. A job without an end measures
+  /// its rate from one line to the next, and in a file says nothing while nothing is done.
   void update(std::int64_t done, std::string_view details);
 
  private:

@@ -10,6 +10,9 @@
 #include "wordgaze/lcm/origin.hpp"
 #include "wordgaze/metrics_t.hpp"
 #include "wordgaze/policy/observer.hpp"
+#include "wordgaze/policy/server.hpp"
+#include "wordgaze/policy_reply_t.hpp"
+#include "wordgaze/policy_request_t.hpp"
 #include "wordgaze/progress_t.hpp"
 #include "wordgaze/step_t.hpp"
 #include "wordgaze/world_t.hpp"
@@ -27,6 +30,11 @@ progress_t to_progress_message(const policy::SceneRecord& record, std::int64_t u
 step_t to_message(const policy::StepRecord& record, std::int64_t utime);
 episode_end_t to_message(const policy::EpisodeEnd& record, std::int64_t utime);
 metrics_t to_message(const policy::UpdateRecord& record, const Origin& origin, std::int64_t utime);
+policy_request_t to_message(const policy::Request& request, std::int64_t utime);
+policy_reply_t to_message(const policy::Reply& reply, std::int64_t utime);
+
+/// The other way round, of a message that decode() has read.
+policy::Request to_request(const policy_request_t& message);
 
 /// The bytes of a message as they go into a log or over the network.
 template <class Message>

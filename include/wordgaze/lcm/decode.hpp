@@ -7,6 +7,8 @@
 #include "wordgaze/episode_begin_t.hpp"
 #include "wordgaze/episode_end_t.hpp"
 #include "wordgaze/metrics_t.hpp"
+#include "wordgaze/policy_reply_t.hpp"
+#include "wordgaze/policy_request_t.hpp"
 #include "wordgaze/progress_t.hpp"
 #include "wordgaze/step_t.hpp"
 #include "wordgaze/world_t.hpp"
@@ -24,6 +26,7 @@ void check(std::span<const std::uint8_t> bytes, const progress_t* type);
 void check(std::span<const std::uint8_t> bytes, const step_t* type);
 void check(std::span<const std::uint8_t> bytes, const episode_end_t* type);
 void check(std::span<const std::uint8_t> bytes, const metrics_t* type);
+void check(std::span<const std::uint8_t> bytes, const policy_reply_t* type);
 }  // namespace detail
 
 /// Throws std::runtime_error when the bytes are of another type, truncated, or claim to hold more
@@ -37,5 +40,9 @@ Message decode(std::span<const std::uint8_t> bytes) {
   }
   return message;
 }
+
+/// Of a request, -1 for the number of completions becomes 0: both say that none are given.
+template <>
+policy_request_t decode<policy_request_t>(std::span<const std::uint8_t> bytes);
 
 }  // namespace wordgaze::lcm_io

@@ -16,5 +16,7 @@ inline constexpr std::string_view kProgressChannel = "WORDGAZE_PROGRESS";
 inline constexpr std::string_view kStepChannel = "WORDGAZE_STEP";
 inline constexpr std::string_view kEpisodeEndChannel = "WORDGAZE_EPISODE_END";
 inline constexpr std::string_view kMetricsChannel = "WORDGAZE_METRICS";
+inline constexpr std::string_view kPolicyRequestChannel = "WORDGAZE_POLICY_REQUEST";
+inline constexpr std::string_view kPolicyReplyChannel = "WORDGAZE_POLICY_REPLY";
 
 }  // namespace wordgaze::lcm_io
