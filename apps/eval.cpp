@@ -42,7 +42,7 @@ struct Arguments {
   std::uint64_t seed = 1'000'000;
   int threads = 0;
   bool greedy = false, sample = false, transparency = false, live = false;
-  double hz = 5;
+  std::optional<double> hz;
   apps::Watch watch;
   apps::Listeners::Options listeners;
 };
@@ -83,9 +83,8 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_flag(
       "--live", a.live,
       "one episode at a time, at a pace that can be watched on --lcm-url; --watch does so too");
-  app.add_option("--hz", a.hz, "steps a second of --live and --watch")
-      ->check(CLI::Range(0.01, 1000.0))
-      ->capture_default_str();
+  app.add_option("--hz", a.hz, "steps a second of --live and --watch (5)")
+      ->check(CLI::Range(0.01, 1000.0));
 }
 
 /// The level with other room sizes and numbers of objects.
@@ -190,7 +189,7 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
   const auto live = a.watch.open({.title = page_title(a.checkpoint, levels.front())});
   int evaluations = 0, pictures = 0;
   Team team(threads(a));
-  apps::Pace pace(a.hz);
+  apps::Pace pace(a.hz.value_or(5));
   for (const auto& level : levels) {
     const policy::Agent agent(config.model, policy::alphabet_of(level));
     const auto weights = agent.make_weights(trained.weights.params);
@@ -281,7 +280,10 @@ void evaluate_policy(const Arguments& a, nlohmann::ordered_json& report) {
 int run(const Arguments& a) {
   require(!a.live || !a.listeners.url.empty(),
           "--live is for somebody who watches: say where, with --lcm-url");
-  require(std::isfinite(a.hz), "--hz {}: expected steps a second, 0.01 to 1000", a.hz);
+  require(!a.hz || a.live || a.watch.wanted,
+          "--hz is the pace of --live and of --watch; give one of them");
+  require(std::isfinite(a.hz.value_or(5)), "--hz {}: expected steps a second, 0.01 to 1000",
+          a.hz.value_or(5));
   if (!a.pictures.empty()) std::filesystem::create_directories(a.pictures);  // others may lie there
   io::check_outputs(std::array{io::NamedPath{"--json", a.json}, io::NamedPath{"--page", a.page},
                                io::NamedPath{"--lcm-log", a.listeners.log}},

@@ -44,8 +44,7 @@ function(wordgaze_program name)
     wordgaze::training wordgaze::trace wordgaze::draw wordgaze::page CLI11::CLI11 nlohmann_json::nlohmann_json
     fmt::fmt-header-only wordgaze_warnings)
   target_compile_definitions(${name} PRIVATE
-    WORDGAZE_VERSION="${PROJECT_VERSION}" WORDGAZE_WITH_LCM=$<BOOL:${WORDGAZE_WITH_LCM}>
-    WORDGAZE_WITH_HTTP=$<BOOL:${WORDGAZE_WITH_HTTP}>)
+    WORDGAZE_VERSION="${PROJECT_VERSION}" WORDGAZE_WITH_LCM=$<BOOL:${WORDGAZE_WITH_LCM}>)
   if(WORDGAZE_WITH_LCM)
     target_link_libraries(${name} PRIVATE wordgaze::lcm)
   endif()

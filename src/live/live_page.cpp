@@ -29,8 +29,11 @@ std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// By number or by its one name: "127.somewhere" is a name of somebody else's.
 bool is_loopback(const std::string& address) {
-  return address == "localhost" || address == "::1" || address.starts_with("127.");
+  return address == "localhost" || address == "::1" ||
+         (address.starts_with("127.") &&
+          address.find_first_not_of("0123456789.") == std::string::npos);
 }
 
 }  // namespace

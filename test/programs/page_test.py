@@ -9,13 +9,16 @@ With --keep the screenshots stay in FOLDER.
 import argparse
 import pathlib
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 try:
     from selenium import webdriver
+    from selenium.common.exceptions import StaleElementReferenceException
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
     from selenium.webdriver.common.keys import Keys
@@ -190,6 +193,8 @@ class Page(unittest.TestCase):
 
     def test_everything_to_use_has_a_name(self):
         for element in find_all("button, select, input, svg[role=img]"):
+            if not element.is_displayed():
+                continue
             name = element.get_attribute("aria-label") or element.text or element.accessible_name
             self.assertTrue(name.strip(), element.get_attribute("outerHTML")[:200])
         self.assertEqual(find("#said").get_attribute("aria-live"), "polite")
@@ -211,6 +216,81 @@ class Page(unittest.TestCase):
         self.assertEqual(find_all("#choices button"), [])  # a log does not hold s(M)
         self.assertIn("Lighter", text("#world-note"))
         keep("log")
+
+
+class Program:
+    """A command that shows a live page, until it is told to end."""
+
+    def __init__(self, *command):
+        self.process = subprocess.Popen([str(ARGUMENTS.build / "bin/wordgaze"), *map(str, command), "--watch-port", "0"],
+                                        stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
+        for line in self.process.stderr:
+            if line.startswith("open "):
+                self.url = line.split()[1]
+                return
+        raise RuntimeError(f"{command}: ended without a page")
+
+    def __enter__(self):
+        browser.get(self.url)
+        return self
+
+    def __exit__(self, *_):
+        browser.get("about:blank")
+        self.process.send_signal(signal.SIGINT)
+        self.process.wait(20)
+        self.process.stderr.close()
+
+
+def wait_for(what, seconds=15):
+    """Until `what` is so; elements come and go meanwhile."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        try:
+            if what():
+                return True
+        except StaleElementReferenceException:
+            pass
+        time.sleep(.05)
+    return False
+
+
+class Live(unittest.TestCase):
+    CHECKPOINT = ROOT / "models/single-attention.safetensors"
+
+    def test_an_evaluation_is_watched(self):
+        with Program("eval", "--checkpoint", self.CHECKPOINT, "--episodes", 3, "--greedy", "--watch", "--hz", 20):
+            self.assertTrue(wait_for(lambda: len(find_all("#episodes .success")) == 3))
+            self.assertTrue(wait_for(lambda: text("#note") == "The evaluation is over."))
+            self.assertFalse(find("#commands").is_displayed())
+            press(Keys.HOME)
+            self.assertTrue(text("#step-text").startswith("step 1 of"))
+
+    def test_training_is_watched(self):
+        with Program("train", "--config", ROOT / "configs/single.toml", "--out", FOLDER / "run", "--frames", 120000,
+                     "--set", "log_episodes=1", "--watch"):
+            self.assertTrue(wait_for(lambda: "success_rate" in text("#learning")))
+            self.assertTrue(wait_for(lambda: len(find_all("#episodes button")) >= 2))
+            keep("training")
+
+    def test_a_person_and_the_agent_play(self):
+        with Program("play", "--checkpoint", self.CHECKPOINT, "--hz", 20):
+            self.assertTrue(wait_for(lambda: text("#step-text") == "step 1 of 1"))
+            self.assertIn("Would do", text("#policy-note"))
+            find('[data-action="turn left"]').click()
+            self.assertTrue(wait_for(lambda: text("#step-text") == "step 2 of 2"))
+            press(Keys.ARROW_RIGHT)
+            self.assertTrue(wait_for(lambda: text("#step-text") == "step 3 of 3"))
+            find("#mission").send_keys("go to the moon" + Keys.ENTER)
+            self.assertTrue(wait_for(lambda: "moon" in text("#note")))
+            find("#mission").clear()
+            find("#mission").send_keys("go to a ball" + Keys.ENTER)
+            self.assertTrue(wait_for(lambda: "go to the ball" in text("#episodes")), text("#note"))
+            find("#next-world").click()
+            count = len(find_all("#episodes button"))
+            find("#agent-on").click()
+            self.assertTrue(wait_for(lambda: find_all("#episodes .success")), text("#episodes"))
+            self.assertGreaterEqual(len(find_all("#episodes button")), count)
+            keep("play")
 
 
 if __name__ == "__main__":
