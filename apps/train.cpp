@@ -5,12 +5,14 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "command.hpp"
 #include "listeners.hpp"
 #include "output.hpp"
+#include "tensorboard.hpp"
 #include "watch.hpp"
 #include "wordgaze/core/require.hpp"
 #include "wordgaze/io/config_file.hpp"
@@ -30,7 +32,7 @@ using training::TrainConfig;
 namespace fs = std::filesystem;
 
 struct Arguments {
-  std::string config, out, init;
+  std::string config, out, init, tensorboard;
   std::vector<std::string> set;
   std::string seed, frames, threads;
   bool resume = false;
@@ -54,6 +56,8 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--set", a.set, "section.key=value, as often as wanted")
       ->allow_extra_args(true)
       ->type_name("KEY=VALUE ...");
+  app.add_option("--tensorboard", a.tensorboard,
+                 "folder for the metrics as TensorBoard reads them, as runs/board/NAME");
   apps::Watch::add_options(app, a.watch);
   apps::Listeners::add_options(app, a.listeners, "LCM log of metrics and of a sample of episodes");
 }
@@ -149,6 +153,11 @@ int run(const Arguments& a) {
   policy::Observers observers;
   observers.add(listeners.observer());
   observers.add(live.get());
+  std::optional<apps::TensorBoard> board;
+  if (!a.tensorboard.empty()) {
+    board.emplace(a.tensorboard, goes_on ? std::optional(trainer.frames() + 1) : std::nullopt);
+    observers.add(&*board);
+  }
 
   io::clear_temporaries(out.path, {"config.toml", "metrics.csv", "checkpoint.safetensors"});
   io::write_file(out.config, io::to_toml(config));

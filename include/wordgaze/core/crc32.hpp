@@ -7,29 +7,41 @@
 namespace wordgaze {
 
 namespace detail {
+/// By the polynomial, its bits reversed.
+template <std::uint32_t kPolynomial>
 inline constexpr auto kCrcTable = [] {
   std::array<std::uint32_t, 256> table{};
   for (std::uint32_t i = 0; i < 256; ++i) {
     std::uint32_t crc = i;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? 0xEDB88320u : 0u);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? kPolynomial : 0u);
     table[i] = crc;
   }
   return table;
 }();
+
+template <std::uint32_t kPolynomial>
+constexpr std::uint32_t crc(std::string_view bytes, std::uint32_t before) {
+  std::uint32_t crc = ~before;
+  for (const char byte : bytes) {
+    crc = (crc >> 8) ^ kCrcTable<kPolynomial>[(crc ^ static_cast<std::uint8_t>(byte)) & 0xFF];
+  }
+  return ~crc;
+}
 }  // namespace detail
 
 /// The checksum of zlib and PNG. Of bytes that come in pieces: pass the result for the piece
 /// before.
 constexpr std::uint32_t crc32(std::string_view bytes, std::uint32_t before = 0) {
-  std::uint32_t crc = ~before;
-  for (const char byte : bytes) {
-    crc = (crc >> 8) ^ detail::kCrcTable[(crc ^ static_cast<std::uint8_t>(byte)) & 0xFF];
-  }
-  return ~crc;
+  return detail::crc<0xEDB88320u>(bytes, before);
 }
 
 inline std::uint32_t crc32(std::span<const std::uint8_t> bytes) {
   return crc32({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+/// Castagnoli's, which TensorFlow's records carry.
+constexpr std::uint32_t crc32c(std::string_view bytes) {
+  return detail::crc<0x82F63B78u>(bytes, 0);
 }
 
 }  // namespace wordgaze
