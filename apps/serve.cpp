@@ -12,12 +12,14 @@
 #include <chrono>
 
 #include "output.hpp"
+#include "wordgaze/babyai/level.hpp"
 #include "wordgaze/io/progress.hpp"
 #include "wordgaze/io/stop_signals.hpp"
 #include "wordgaze/lcm/origin.hpp"
 #include "wordgaze/lcm/policy_service.hpp"
-#include "wordgaze/policy/network_policy.hpp"
+#include "wordgaze/policy/environment.hpp"
 #include "wordgaze/policy/server.hpp"
+#include "wordgaze/training/checkpoint.hpp"
 #endif
 
 namespace {
@@ -25,7 +27,7 @@ namespace {
 using namespace wordgaze;
 
 struct Arguments {
-  std::string checkpoint, url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string checkpoint, env, url = "udpm://239.255.76.67:7667?ttl=0";
   std::size_t clients = 64;
   bool greedy = false, sample = false;
   std::uint64_t seed = 1;
@@ -34,6 +36,8 @@ struct Arguments {
 void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--checkpoint", a.checkpoint, "the agent: file that train has written")
       ->required();
+  app.add_option("--env", a.env,
+                 "level whose cells robots may show, in place of the one trained in");
   app.add_option("--lcm-url", a.url, "where robots ask, udpm://[group[:port]][?ttl=n]")
       ->capture_default_str();
   app.add_option("--clients", a.clients,
@@ -62,7 +66,10 @@ std::string summary(const policy::Server::Counts& server,
 
 int run(const Arguments& a) {
   const io::StopSignals signals("\nserve: stopping; again to stop at once\n");
-  const auto trained = policy::TrainedAgent::load(a.checkpoint);
+  const auto level =
+      babyai::find_level(a.env.empty() ? training::load_config(a.checkpoint).env : a.env);
+  // As in evaluations: what a word says of a cell depends on which others there could be.
+  const auto trained = policy::TrainedAgent::load(a.checkpoint, policy::alphabet_of(level));
   policy::NetworkPolicy agent(trained);
   policy::Server server(agent, {.clients = a.clients, .greedy = a.greedy, .seed = a.seed});
   lcm_io::PolicyService service(a.url, server);

@@ -25,7 +25,8 @@ import wordgaze.step_t;
  * policy_reply_t. The view, M over it, the words with their weights and the mask, the action.
  */
 public class GazePlugin implements SpyPlugin {
-  private static final String[] ACTIONS = {"left", "right", "forward", "pickup", "drop", "toggle", "done"};
+  private static final String[] ACTIONS = {
+    "left", "right", "forward", "pickup", "drop", "toggle", "done"};
 
   @Override
   public boolean canHandle(long fingerprint) {
@@ -99,8 +100,8 @@ public class GazePlugin implements SpyPlugin {
         synchronized (missions) {
           gaze.words = missions.get(step.episode_id);
         }
-        gaze.text = "episode " + step.episode_id + ", step " + step.step + ": " + action(step.action)
-            + ", value " + step.value;
+        gaze.text = "episode " + step.episode_id + ", step " + step.step + ": "
+            + action(step.action) + ", value " + step.value;
       } else if (message instanceof policy_reply_t) {
         policy_reply_t reply = (policy_reply_t) message;
         gaze.map = reply.attention_map;
@@ -108,7 +109,9 @@ public class GazePlugin implements SpyPlugin {
         gaze.mask = reply.word_mask;
         gaze.words = reply.tokens;
         gaze.text = "client " + reply.client_id + ", request " + reply.seq + ": "
-            + (reply.error.isEmpty() ? action(reply.action) + ", value " + reply.value : reply.error);
+            + (reply.error.isEmpty()
+                ? action(reply.action) + ", value " + reply.value
+                : reply.error);
       } else {
         return null;
       }
@@ -128,7 +131,8 @@ public class GazePlugin implements SpyPlugin {
         for (int y = 0; y < 7; ++y) paintCell(g, gaze, x, y);
       }
       g.setColor(Color.RED);
-      int[] xs = {3 * CELL + 10, 4 * CELL - 10, 3 * CELL + CELL / 2}, ys = {VIEW - 8, VIEW - 8, VIEW - 30};
+      int[] xs = {3 * CELL + 10, 4 * CELL - 10, 3 * CELL + CELL / 2};
+      int[] ys = {VIEW - 8, VIEW - 8, VIEW - 30};
       g.fillPolygon(xs, ys, 3);  // the agent
       g.setColor(Color.BLACK);
       g.setFont(new Font(Font.SANS_SERIF, Font.PLAIN, 13));
@@ -158,7 +162,8 @@ public class GazePlugin implements SpyPlugin {
       int y = LINE * (i + 1);
       float alpha = Math.max(0, Math.min(1, gaze.mask[i]));
       int grey = Math.round(200 * (1 - alpha));
-      g.setColor(new Color(Math.max(grey, Math.round(255 * alpha)), Math.max(grey, Math.round(150 * alpha)), grey));
+      int red = Math.max(grey, Math.round(255 * alpha));
+      g.setColor(new Color(red, Math.max(grey, Math.round(150 * alpha)), grey));
       g.fillRect(VIEW + LEFT + 90, y - 12, Math.round(180 * gaze.weights[i]), 14);
       g.setColor(new Color(grey, grey, grey));
       g.setFont(new Font(Font.SANS_SERIF, Font.PLAIN, 14));

@@ -158,9 +158,9 @@ void Server::observe(const Request& request) {
     const auto* of = request.image.data() + 3 * cell;
     const bool in_range = of[0] < model::kTypes && of[1] < model::kColors && of[2] < model::kStates;
     require(in_range && codes.find({of[0], of[1], of[2]}) >= 0,
-            "cell ({}, {}) of the view is type {}, color {}, state {}, which the agent does not "
-            "know; docs/robot-server.md lists what can be seen",
-            cell / grid::kViewSize, cell % grid::kViewSize, of[0], of[1], of[2]);
+            "cell ({}, {}) of the view is type {}, color {}, state {}, which is not among the {} "
+            "kinds of cells that the agent knows; docs/robot-server.md lists them",
+            cell / grid::kViewSize, cell % grid::kViewSize, of[0], of[1], of[2], codes.size());
   }
   require(request.direction >= -1 && request.direction <= 3,
           "direction is {}; expected 0 right, 1 down, 2 left, 3 up, or -1: not known",

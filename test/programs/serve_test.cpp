@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <regex>
 #include <string>
 
 #include "programs/shell.hpp"
@@ -63,6 +64,18 @@ TEST_F(Serve, AnswersARobotThatAsksForWhatIsUnknown) {
   EXPECT_EQ(run.read("ended.txt"), "143\n");
 }
 
+TEST_F(Serve, KnowsTheCellsOfTheLevelThatItWasTrainedInOrOfAnother) {
+  for (const bool doors : {false, true}) {
+    const auto soak = serve("--checkpoint " + kModels + "single-attention.safetensors" +
+                                (doors ? " --env BabyAI-GoToObjMaze-v0" : ""),
+                            "policy_soak --lcm-url $url --checkpoint " + kModels +
+                                "single-attention.safetensors --env BabyAI-GoToObjMaze-v0 "
+                                "--requests 500 --robots 2");
+    SKIP_WITHOUT_ROUTE();
+    EXPECT_EQ(soak.status, doors ? 0 : 1) << describe(soak);
+  }
+}
+
 TEST_F(Serve, LetsARobotInPythonAct) {
   if (run("python3 -c 'import lcm'").status != 0) GTEST_SKIP() << "needs the package lcm of Python";
   const auto robot = serve("--checkpoint " + kModels + "single-attention.safetensors --greedy",
@@ -87,6 +100,10 @@ TEST_F(Serve, IsRightForRobotsOverABadNetwork) {
     EXPECT_TRUE(succeeded(soak)) << model << soak.out;
     EXPECT_TRUE(contains(soak.out, "wrong 0")) << model;
     EXPECT_FALSE(contains(soak.out, "told to reset 0,")) << soak.out;
+    // It acts as well as where it was trained.
+    std::smatch success;
+    ASSERT_TRUE(std::regex_search(soak.out, success, std::regex("success ([0-9.]+) %")));
+    if (model != "single-baseline") EXPECT_GE(std::stod(success[1]), 97) << soak.out;
     EXPECT_TRUE(contains(run.read("serve.err"), "is passed over: not a valid policy_request_t"));
   }
 }

@@ -24,6 +24,7 @@
 #include <utility>
 #include <vector>
 
+#include "wordgaze/babyai/level.hpp"
 #include "wordgaze/core/require.hpp"
 #include "wordgaze/lcm/convert.hpp"
 #include "wordgaze/lcm/decode.hpp"
@@ -93,7 +94,8 @@ class Soak {
  public:
   explicit Soak(const Options& options)
       : options_(options),
-        agent_(policy::TrainedAgent::load(options.checkpoint)),
+        agent_(policy::TrainedAgent::load(options.checkpoint,
+                                          policy::alphabet_of(babyai::find_level(options.env)))),
         bus_(options.url),
         random_(options.seed) {
     require(bus_.good(), "soak: cannot open '{}'", options.url);
@@ -114,7 +116,7 @@ class Soak {
     const auto begin = Clock::now();
     std::optional<std::int64_t> memory_before;
     auto last_answer = begin;
-    while (tally_.sent < options_.requests) {
+    while (tally_.sent < options_.requests && tally_.wrong < 10) {
       const std::int64_t answers = tally_.answers;
       for (Robot& robot : robots_) act(robot);
       bus_.handleTimeout(1);
