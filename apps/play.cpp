@@ -54,9 +54,9 @@ void obey(const std::string& text, apps::Game& game, page::LivePage& live, bool&
   };
   if (const std::string name = given("action"); !name.empty()) {
     agent = false;
-    const auto action = std::ranges::find(grid::kActionNames, name);
-    if (action != grid::kActionNames.end()) {
-      game.act(static_cast<grid::Action>(action - grid::kActionNames.begin()));
+    const auto action = std::ranges::find(grid::kActionPhrases, name);
+    if (action != grid::kActionPhrases.end()) {
+      game.act(static_cast<grid::Action>(action - grid::kActionPhrases.begin()));
     }
   } else if (const std::string who = given("who"); !who.empty()) {
     agent = who == "agent";

@@ -97,7 +97,7 @@ class TerminalScreen final : public Game::Screen, private policy::Observer {
     }
     text += step.nowhere > 0.5f ? "looks: not in view\n" : looks(step);
     text += fmt::format("step {}, the agent would: {}\n", step.step,
-                        grid::kActionNames[static_cast<std::size_t>(step.action)]);
+                        grid::kActionPhrases[static_cast<std::size_t>(step.action)]);
     say("{}", text);
   }
 

@@ -302,8 +302,8 @@ class Figure {
   }
 
   static std::string name_of_action(std::size_t action) {
-    return action < grid::kActionNames.size() ? std::string(grid::kActionNames[action])
-                                              : fmt::format("action {}", action);
+    return action < grid::kActionPhrases.size() ? std::string(grid::kActionPhrases[action])
+                                                : fmt::format("action {}", action);
   }
   std::string action_name() const { return name_of_action(static_cast<std::size_t>(step_.action)); }
 

@@ -130,7 +130,7 @@ std::optional<Json> EpisodeJson::end(const policy::EpisodeEnd& end) {
 std::string page_with(std::string_view title, Json data) {
   data["format"] = 1;
   data["title"] = title;
-  data["actions"] = grid::kActionNames;
+  data["actions"] = grid::kActionPhrases;
   data["types"] = grid::kTypeNames;
   data["colors"] = grid::kColorNames;
   std::string page(kPage);

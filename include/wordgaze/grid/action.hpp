@@ -9,8 +9,10 @@ namespace wordgaze::grid {
 enum class Action : std::uint8_t { left, right, forward, pickup, drop, toggle, done };
 
 inline constexpr int kActions = 7;
-/// As people say it.
 inline constexpr std::array<std::string_view, kActions> kActionNames{
+    "left", "right", "forward", "pickup", "drop", "toggle", "done"};
+/// As people say it.
+inline constexpr std::array<std::string_view, kActions> kActionPhrases{
     "turn left", "turn right", "forward", "pick up", "drop", "toggle", "done"};
 
 }  // namespace wordgaze::grid
