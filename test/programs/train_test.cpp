@@ -333,5 +333,13 @@ TEST_F(Train, SaysThatItWasBuiltWithoutLcm) {
 }
 #endif
 
+TEST_F(Train, WritesWhatTensorBoardReads) {
+  ASSERT_TRUE(succeeded(run("train --config tiny.toml --out a --tensorboard board")));
+  ASSERT_TRUE(succeeded(run("ls board/events.out.tfevents.*")));
+  EXPECT_TRUE(refused(run("train --config tiny.toml --out b --tensorboard a/config.toml"),
+                      "a/config.toml"));
+  EXPECT_FALSE(run.has("b/config.toml"));
+}
+
 }  // namespace
 }  // namespace wordgaze
