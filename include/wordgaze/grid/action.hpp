@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 namespace wordgaze::grid {
 
@@ -7,5 +9,8 @@ namespace wordgaze::grid {
 enum class Action : std::uint8_t { left, right, forward, pickup, drop, toggle, done };
 
 inline constexpr int kActions = 7;
+
+inline constexpr std::array<std::string_view, kActions> kActionNames{
+    "left", "right", "forward", "pickup", "drop", "toggle", "done"};
 
 }  // namespace wordgaze::grid
