@@ -18,8 +18,11 @@
 
 #include "arrays.hpp"
 #include "bindings.hpp"
+#include "wordgaze/babyai/level.hpp"
 #include "wordgaze/core/require.hpp"
 #include "wordgaze/core/rng.hpp"
+#include "wordgaze/io/weights_file.hpp"
+#include "wordgaze/policy/environment.hpp"
 #include "wordgaze/policy/network_policy.hpp"
 
 namespace nb = nanobind;
@@ -40,8 +43,12 @@ struct Seen {
 /// A trained agent in one episode.
 class Agent {
  public:
-  Agent(const std::string& path, std::uint64_t seed)
-      : trained_(policy::TrainedAgent::load(path)), policy_(trained_), rng_(seed) {}
+  /// The level decides which cells the agent may meet, and which it tells apart.
+  Agent(const std::string& path, const std::optional<babyai::LevelSpec>& level, std::uint64_t seed)
+      : trained_(policy::TrainedAgent::load(
+            path, level ? policy::alphabet_of(*level) : model::CellAlphabet::everything())),
+        policy_(trained_),
+        rng_(seed) {}
 
   void begin(std::string_view mission, int actions) {
     policy::Observation observation;
@@ -103,6 +110,7 @@ auto as_views(const std::vector<float>& maps) {
 }  // namespace
 
 void bind_policy(nb::module_& module) {
+  constexpr auto kOwned = nb::rv_policy::automatic;  // by the array that is returned
   nb::class_<Seen>(module, "Decision",
                    "A decision of an agent, and where it looked. Maps lie as the view, [x][y]; "
                    "without attention they are empty.")
@@ -116,28 +124,34 @@ void bind_policy(nb::module_& module) {
           "value", [](const Seen& s) { return s.decision.value; },
           "The discounted reward that the critic expects.")
       .def_prop_ro(
-          "probabilities", [](const Seen& s) { return by_word(s.probabilities); }, "One an action.")
+          "probabilities", [](const Seen& s) { return by_word(s.probabilities); }, kOwned,
+          "One an action.")
       .def_ro("words", &Seen::words, "The words of the mission.")
       .def_prop_ro(
-          "weights", [](const Seen& s) { return by_word(s.attention.weights); },
+          "weights", [](const Seen& s) { return by_word(s.attention.weights); }, kOwned,
           "How much each word counts, w; sums to 1.")
       .def_prop_ro(
-          "mask", [](const Seen& s) { return by_word(s.attention.mask); },
+          "mask", [](const Seen& s) { return by_word(s.attention.mask); }, kOwned,
           "What the task mask leaves of each word, alpha.")
       .def_prop_ro(
-          "maps", [](const Seen& s) { return as_views(s.attention.maps); },
+          "maps", [](const Seen& s) { return as_views(s.attention.maps); }, kOwned,
           "Where each word looks, A: [words, 7, 7].")
       .def_prop_ro(
-          "gaze", [](const Seen& s) { return as_view(s.attention.gaze); },
+          "gaze", [](const Seen& s) { return as_view(s.attention.gaze); }, kOwned,
           "Where the agent looks, M: [7, 7].")
       .def_prop_ro(
-          "filter", [](const Seen& s) { return as_view(s.attention.filter); },
+          "filter", [](const Seen& s) { return as_view(s.attention.filter); }, kOwned,
           "What the view is multiplied with, s(M): [7, 7].")
       .def_prop_ro(
           "nowhere", [](const Seen& s) { return s.attention.nowhere; },
           "What M has outside of the view.");
+  module.def(
+      "configuration",
+      [](const std::string& path) { return io::configuration_text(io::read_weights_file(path)); },
+      nb::arg("path"), "The configuration in a file of weights, as TOML.");
   nb::class_<Agent>(module, "Agent", "A trained agent in one episode.")
-      .def(nb::init<const std::string&, std::uint64_t>(), nb::arg("path"), nb::arg("seed"))
+      .def(nb::init<const std::string&, const std::optional<babyai::LevelSpec>&, std::uint64_t>(),
+           nb::arg("path"), nb::arg("level").none(), nb::arg("seed"))
       .def("begin", &Agent::begin, nb::arg("mission"), nb::arg("actions"))
       .def("act", &Agent::act, nb::arg("image"), nb::arg("completion").none() = nb::none(),
            nb::arg("sample") = false)

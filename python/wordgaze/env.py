@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import functools
 import operator
 from enum import IntEnum
@@ -47,8 +48,8 @@ class Env(gymnasium.Env):
 
     Parameters
     ----------
-    id
-        Of the level, with or without ``wordgaze/`` before it; see ``wordgaze.level_ids()``.
+    level
+        Its id, with or without ``wordgaze/`` before it; see ``wordgaze.level_ids()``.
     render_mode
         None or ``"rgb_array"``.
     room_size
@@ -79,7 +80,7 @@ class Env(gymnasium.Env):
 
     def __init__(
         self,
-        id: str,
+        level: str,
         *,
         render_mode: str | None = None,
         room_size: int | None = None,
@@ -93,7 +94,7 @@ class Env(gymnasium.Env):
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise ValueError(f"render_mode = {render_mode!r}; expected None or 'rgb_array'")
         self.level = Level(
-            level_id(id),
+            level_id(level),
             room_size=room_size,
             objects=objects,
             max_steps=max_steps,
@@ -310,6 +311,10 @@ class Env(gymnasium.Env):
         """Bring the lent generator to where the random stream is."""
         if self._generator is not None:
             self._generator.bit_generator.state = random.to_numpy(self._core.random_state)
+
+    def __copy__(self) -> Env:
+        """Environments share nothing."""
+        return copy.deepcopy(self)
 
     def __getstate__(self) -> dict[str, Any]:
         if self._generator is not None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+import re
 from typing import Sequence
 
 import numpy
 
-from wordgaze._core import ACTIONS, Agent, Decision
+from wordgaze._core import ACTIONS, Agent, Decision, Level, configuration
+from wordgaze.registration import level_id
 
 __all__ = ["Decision", "Policy"]
 
@@ -19,6 +21,9 @@ class Policy:
     ----------
     checkpoint
         A file of ``train``, or any other of our files of weights (``models/*.safetensors``).
+    level
+        The id of a level with the kinds of objects that the agent will meet; by default the one
+        that it was trained in. An agent of rooms without doors knows none.
     seed
         Of the actions that are drawn.
 
@@ -38,8 +43,11 @@ class Policy:
     (2, (7, 7))
     """
 
-    def __init__(self, checkpoint: str | os.PathLike[str], seed: int = 0):
-        self._agent = Agent(os.fspath(checkpoint), seed)
+    def __init__(
+        self, checkpoint: str | os.PathLike[str], level: str | None = None, seed: int = 0
+    ):
+        path = os.fspath(checkpoint)
+        self._agent = Agent(path, Level(level_id(level)) if level else training_level(path), seed)
 
     @property
     def has_attention(self) -> bool:
@@ -87,3 +95,12 @@ class Policy:
         """
         done = None if completion is None else [int(one) for one in completion]
         return self._agent.act(numpy.ascontiguousarray(image, numpy.uint8), done, sample)
+
+
+def training_level(checkpoint: str | os.PathLike[str]) -> Level | None:
+    """Return the level in which an agent was trained; None if it is not known here."""
+    found = re.search(r'^env = "(.*)"$', configuration(os.fspath(checkpoint)), re.MULTILINE)
+    try:
+        return Level(found[1]) if found else None
+    except ValueError:
+        return None

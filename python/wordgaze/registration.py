@@ -31,5 +31,5 @@ def register(ids: Iterable[str] | None = None) -> None:
                 id=full_name,
                 entry_point="wordgaze.env:Env",
                 vector_entry_point="wordgaze.vector:make_vec",
-                kwargs={"id": name},
+                kwargs={"level": name},
             )

@@ -29,8 +29,8 @@ class VectorEnv(gymnasium.vector.VectorEnv):
 
     Parameters
     ----------
-    id
-        Of the level, with or without ``wordgaze/`` before it.
+    level
+        Its id, with or without ``wordgaze/`` before it.
     num_envs
         How many environments.
     num_threads
@@ -39,7 +39,7 @@ class VectorEnv(gymnasium.vector.VectorEnv):
         Columns of ``mission``. A longer mission raises ValueError.
     render_mode
         None or ``"rgb_array"``.
-    **level
+    **settings
         ``room_size``, ``objects``, ``max_steps`` and ``see_through_walls``, as of `wordgaze.Env`.
     """
 
@@ -52,18 +52,18 @@ class VectorEnv(gymnasium.vector.VectorEnv):
 
     def __init__(
         self,
-        id: str,
+        level: str,
         num_envs: int = 1,
         num_threads: int = 1,
         *,
         max_words: int = MAX_MISSION_WORDS,
         render_mode: str | None = None,
-        **level: Any,
+        **settings: Any,
     ):
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise ValueError(f"render_mode = {render_mode!r}; expected None or 'rgb_array'")
-        self.level = Level(level_id(id), **level)
-        self._level_settings = {"id": level_id(id), **level}
+        self.level = Level(level_id(level), **settings)
+        self._level = {"level": level_id(level), **settings}
         self.num_envs = num_envs
         self.num_threads = num_threads
         self.max_words = max_words
@@ -201,7 +201,7 @@ class VectorEnv(gymnasium.vector.VectorEnv):
             "num_threads": self.num_threads,
             "max_words": self.max_words,
             "render_mode": self.render_mode,
-            **self._level_settings,
+            **self._level,
         }
         return _restored, (settings, self.get_state())
 
@@ -255,7 +255,7 @@ def _restored(settings: dict[str, Any], states: list[bytes]) -> VectorEnv:
     return envs
 
 
-def make_vec(id: str, num_envs: int = 1, num_threads: int = 1, **settings: Any) -> VectorEnv:
+def make_vec(level: str, num_envs: int = 1, num_threads: int = 1, **settings: Any) -> VectorEnv:
     """Make environments of a level that step together; see `VectorEnv` for the parameters.
 
     Examples
@@ -264,4 +264,4 @@ def make_vec(id: str, num_envs: int = 1, num_threads: int = 1, **settings: Any) 
     >>> observations, infos = envs.reset(seed=7)
     >>> observations, rewards, terminated, truncated, infos = envs.step([2, 2, 0, 1])
     """
-    return VectorEnv(id, num_envs, num_threads, **settings)
+    return VectorEnv(level, num_envs, num_threads, **settings)
