@@ -45,9 +45,14 @@ def test_seeds_of_any_size(seed):
     follow(wordgaze.Env("BabyAI-GoToLocal-v0"), make_reference("BabyAI-GoToLocal-v0"), seed)
 
 
-@pytest.mark.parametrize("id", ["BabyAI-PickupLoc-v0", "MiniGrid-DoorKey-6x6-v0"])
-def test_other_step_limits_and_sight_through_walls(id):
-    settings = {"max_steps": 13, "see_through_walls": True}
+@pytest.mark.parametrize(
+    ("id", "settings"),
+    [
+        ("BabyAI-PickupLoc-v0", {"max_steps": 13}),
+        ("MiniGrid-DoorKey-6x6-v0", {"max_steps": 13, "see_through_walls": True}),
+    ],
+)
+def test_other_step_limits_and_sight_through_walls(id, settings):
     ours, reference = wordgaze.Env(id, **settings), make_reference(id, **settings)
     follow(ours, reference, seed=3)
     assert ours.max_steps == reference.max_steps == 13

@@ -97,7 +97,6 @@ def test_what_minigrid_s_environments_have_beside_gymnasium_s_interface(id):
     draw = numpy.random.default_rng(3)
     for _ in range(25):
         assert ours.grid == reference.grid
-        assert ours.hash() == reference.hash()
         assert ours.pprint_grid() == reference.pprint_grid()
         assert ours.steps_remaining == reference.steps_remaining
         assert tuple(ours.front_pos) == tuple(reference.front_pos)

@@ -8,7 +8,7 @@ Examples
 >>> env = gymnasium.make("wordgaze/BabyAI-GoToLocal-v0")
 >>> observation, info = env.reset(seed=1)
 >>> observation["mission"]
-'go to the grey key'
+'go to the purple box'
 >>> envs = wordgaze.make_vec("BabyAI-GoToLocal-v0", num_envs=256)
 >>> observations, infos = envs.reset(seed=1)
 >>> observations["image"].shape
