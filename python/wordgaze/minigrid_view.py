@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from minigrid.core.grid import Grid
-from minigrid.core.world_object import WorldObj
+from minigrid.core.world_object import Goal, WorldObj
 from minigrid.minigrid_env import MiniGridEnv
 
 if TYPE_CHECKING:
@@ -33,6 +33,14 @@ class MinigridView(MiniGridEnv):
 
     def _gen_grid(self, width: int, height: int) -> None:
         raise RuntimeError("this view of a world is to be read; reset the environment itself")
+
+    @property
+    def goal_pos(self) -> tuple[int, int]:
+        """Where the goal is; the first one, row by row."""
+        number = next(k for k, thing in enumerate(self.grid.grid) if isinstance(thing, Goal))
+        return number % self.width, number // self.width
+
+    goal_position = goal_pos
 
     def forget(self) -> None:
         """Another world: its objects are others."""
