@@ -1,20 +1,11 @@
 #include "wordgaze/draw/image.hpp"
 
-#include <algorithm>
-#include <cassert>
 #include <memory>
 
 #include "canvas.hpp"
 #include "wordgaze/io/file.hpp"
 
 namespace wordgaze::draw {
-
-void Image::paste(const Image& part, int x, int y) {
-  assert(x >= 0 && y >= 0 && x + part.width <= width && y + part.height <= height);
-  for (int row = 0; row < part.height; ++row) {
-    std::copy_n(part.pixel(0, row), 3 * part.width, pixel(x, y + row));
-  }
-}
 
 std::string png(const Image& image) {
   const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(

@@ -33,7 +33,11 @@ void Environment::reset(const core::Seed& seed) {
 
 void Environment::reset() {
   if (!seeded_) return reset(std::uint64_t{std::random_device{}()});
-  if (!start(rng_)) fail_to_start("that of the stream that was continued");
+  reset(rng_);
+}
+
+void Environment::reset(const core::Rng& rng) {
+  if (!start(rng)) fail_to_start("that of the stream that was continued");
 }
 
 void Environment::fail_to_start(const std::string& seed) const {

@@ -37,10 +37,43 @@ void VectorEnv::reset(std::uint64_t first_seed, const BatchOutput& out) {
   check(out);
   for_each([&](int k) {
     environments_[k].reset(first_seed + static_cast<std::uint64_t>(k));
-    statistics_[k] = {};
-    returns_[k] = 0;
-    write_view(k, out.images, out.directions);
+    begin_one(k, out);
   });
+}
+
+void VectorEnv::reset(std::span<const std::optional<core::Seed>> seeds, const BatchOutput& out,
+                      std::span<const std::uint8_t> chosen) {
+  check(out);
+  require(seeds.size() == environments_.size(), "VectorEnv: {} seeds for {} environments",
+          seeds.size(), environments_.size());
+  require(chosen.empty() || chosen.size() == environments_.size(),
+          "VectorEnv: {} choices for {} environments", chosen.size(), environments_.size());
+  for_each([&](int k) {
+    if (!chosen.empty() && chosen[k] == 0) return;
+    if (seeds[k]) {
+      environments_[k].reset(*seeds[k]);
+    } else {
+      environments_[k].reset();
+    }
+    begin_one(k, out);
+  });
+}
+
+void VectorEnv::restore(int k, std::span<const std::uint8_t> state) {
+  require(k >= 0 && k < size(), "VectorEnv: environment {} of {}", k, size());
+  environments_[k].restore(state);
+  begin_one(k, {});
+}
+
+void VectorEnv::observe(const BatchOutput& out) const {
+  check(out);
+  for (int k = 0; k < size(); ++k) write_view(k, out.images, out.directions);
+}
+
+void VectorEnv::begin_one(int k, const BatchOutput& out) {
+  statistics_[k] = {};
+  returns_[k] = 0;
+  write_view(k, out.images, out.directions);
 }
 
 void VectorEnv::step(std::span<const grid::Action> actions, const BatchOutput& out) {

@@ -375,5 +375,19 @@ TEST(Environment, RefusesAnInstructionThatIsNotOfTheGrammar) {
   EXPECT_THROW(env.set_instruction(i), std::invalid_argument);
 }
 
+TEST(Environment, GoesOnWithTheRandomStreamThatItIsGiven) {
+  Environment a("MiniGrid-Dynamic-Obstacles-6x6-v0"), b(a), c(a);
+  a.reset(3);
+  b.reset(4);
+  b.reset(core::Rng(3));  // a stream, not a seed of another one
+  EXPECT_EQ(a.serialize(), b.serialize());
+  c.reset(3);
+  c.set_rng(core::Rng(9));
+  EXPECT_NE(a.rng().state(), c.rng().state());
+  a.step(Action::left);
+  c.step(Action::left);
+  EXPECT_NE(a.serialize(), c.serialize());  // other obstacles have moved, or other ways
+}
+
 }  // namespace
 }  // namespace wordgaze::env

@@ -2,6 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
 namespace wordgaze::env {
 namespace {
 
@@ -136,6 +142,50 @@ TEST(VectorEnv, RefusesWhatDoesNotFitAndStepsNone) {
   EXPECT_THROW(batch.step(actions, out.output()), std::invalid_argument);
   EXPECT_EQ(batch[0].step_count(), 0);
   EXPECT_THROW(VectorEnv(kLevel, 0), std::invalid_argument);
+}
+
+TEST(VectorEnv, StartsEachFromASeedOfItsOwnOrWhereItsStreamIs) {
+  VectorEnv batch(kLevel, 3);
+  Buffers out(3);
+  const core::Seed large = core::Seed::parse("123456789012345678901234567890");
+  const std::vector<std::optional<core::Seed>> seeds{large, std::nullopt, core::Seed(7)};
+  batch.reset(40, out.output());
+  Environment expected(kLevel);
+  expected.reset(41);
+  expected.reset();
+  batch.reset(seeds, out.output());
+  EXPECT_EQ(batch[1].serialize(), expected.serialize());
+  expected.reset(7);
+  EXPECT_EQ(batch[2].serialize(), expected.serialize());
+  expected.reset(large);
+  EXPECT_EQ(batch[0].serialize(), expected.serialize());
+}
+
+TEST(VectorEnv, StartsThoseAloneThatAreChosen) {
+  VectorEnv batch(kLevel, 3);
+  Buffers out(3), seen(3);
+  batch.reset(40, out.output());
+  batch.step(std::vector<Action>(3, Action::left), out.output());
+  const std::vector<std::optional<core::Seed>> seeds(3, core::Seed(9));
+  batch.reset(seeds, out.output(), std::vector<std::uint8_t>{0, 1, 0});
+  EXPECT_EQ(batch[0].step_count(), 1);
+  EXPECT_EQ(batch[1].step_count(), 0);
+  EXPECT_EQ(batch[2].step_count(), 1);
+  batch.observe({.images = seen.images, .directions = seen.directions});
+  EXPECT_EQ(seen.images, out.images);
+  EXPECT_EQ(seen.directions, out.directions);
+  EXPECT_THROW(batch.reset(std::span(seeds).first(2), out.output()), std::invalid_argument);
+  EXPECT_THROW(batch.reset(seeds, out.output(), std::vector<std::uint8_t>{1}),
+               std::invalid_argument);
+}
+
+TEST(VectorEnv, TakesOverAState) {
+  VectorEnv batch(kLevel, 2), other(kLevel, 2);
+  batch.reset(1, {});
+  other.reset(5, {});
+  other.restore(1, batch[0].serialize());
+  EXPECT_EQ(other[1].serialize(), batch[0].serialize());
+  EXPECT_THROW(other.restore(2, batch[0].serialize()), std::invalid_argument);
 }
 
 TEST(VectorEnv, LeavesOutTheBuffersThatAreNotGiven) {

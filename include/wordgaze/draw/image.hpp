@@ -1,5 +1,7 @@
 #pragma once
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -28,7 +30,12 @@ struct Image {
   const std::uint8_t* pixel(int x, int y) const { return const_cast<Image*>(this)->pixel(x, y); }
 
   /// Copies `part`, which must fit, to the place with its top left corner at (x, y).
-  void paste(const Image& part, int x, int y);
+  void paste(const Image& part, int x, int y) {
+    assert(x >= 0 && y >= 0 && x + part.width <= width && y + part.height <= height);
+    for (int row = 0; row < part.height; ++row) {
+      std::copy_n(part.pixel(0, row), 3 * part.width, pixel(x, y + row));
+    }
+  }
 
   bool operator==(const Image&) const = default;
 };

@@ -52,6 +52,8 @@ class Environment {
   void reset(std::floating_point auto seed) = delete;
   /// Starts an episode where the random stream is; from an unpredictable seed when there is none.
   void reset();
+  /// Starts an episode where another random stream is, and goes on with that one.
+  void reset(const core::Rng& rng);
 
   /// Throws std::invalid_argument for an action out of range, std::logic_error before the first
   /// reset.
@@ -69,6 +71,8 @@ class Environment {
   const babyai::LevelSpec& spec() const { return *spec_; }
   const grid::World& world() const { return world_; }
   const core::Rng& rng() const { return rng_; }
+  /// Goes on with another random stream, for whoever draws from it between the steps.
+  void set_rng(const core::Rng& rng) { rng_ = rng; }
 
   const babyai::Instruction& instruction() const { return task_.instruction; }
   const babyai::Meaning& meaning() const { return task_.meaning; }
