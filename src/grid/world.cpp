@@ -23,7 +23,7 @@ ObjectId World::add(Type type, Color color, DoorState state) {
   }
   const auto id = static_cast<ObjectId>(objects.size());
   objects.push_back({.type = type, .color = color, .state = state});
-  looks[id] = look_of(objects[id]);
+  looks[id] = look_of(objects.back());
   return id;
 }
 

@@ -127,7 +127,7 @@ std::optional<EventLog::Event> EventLog::framed_event_at(std::uint64_t place) co
       size_ - place < kHead + channel + data || count < kHead + channel) {
     return std::nullopt;
   }
-  const auto* name = reinterpret_cast<const char*>(&head[kHead]);
+  const auto* name = reinterpret_cast<const char*>(head.data() + kHead);
   const std::uint64_t data_at = place + kHead + channel;
   return Event{static_cast<std::int64_t>(number), static_cast<std::int64_t>(utime),
                std::string(name, channel), data_at, data_at + data};

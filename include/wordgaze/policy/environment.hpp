@@ -54,7 +54,8 @@ class EnvironmentPolicy {
 
   /// For the seeds of many streams, each with random draws of its own.
   static env::PolicyMaker maker(std::shared_ptr<const TrainedAgent> trained, bool greedy) {
-    return [=](std::string_view, std::uint64_t seed, std::uint64_t policy_seed) -> env::Policy {
+    return [trained = std::move(trained), greedy](std::string_view, std::uint64_t seed,
+                                                  std::uint64_t policy_seed) -> env::Policy {
       return
           [shared = std::make_shared<EnvironmentPolicy>(trained, seed ^ policy_seed << 32, greedy)](
               const env::Environment& environment) { return (*shared)(environment); };
