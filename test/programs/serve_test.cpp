@@ -103,7 +103,9 @@ TEST_F(Serve, IsRightForRobotsOverABadNetwork) {
     // It acts as well as where it was trained.
     std::smatch success;
     ASSERT_TRUE(std::regex_search(soak.out, success, std::regex("success ([0-9.]+) %")));
-    if (model != "single-baseline") EXPECT_GE(std::stod(success[1]), 97) << soak.out;
+    if (model != "single-baseline") {
+      EXPECT_GE(std::stod(success[1]), 97) << soak.out;
+    }
     EXPECT_TRUE(contains(run.read("serve.err"), "is passed over: not a valid policy_request_t"));
   }
 }
