@@ -9,6 +9,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -74,6 +75,22 @@ env::PolicyMaker with_checks(env::PolicyMaker maker, std::function<void()> check
   };
 }
 
+/// An agent with the cells of the level that it acts in, as eval has it.
+env::PolicyMaker agent_maker(const std::string& checkpoint, bool greedy) {
+  std::string of;
+  env::PolicyMaker maker;
+  return [=](std::string_view id, std::uint64_t seed, std::uint64_t policy_seed) mutable {
+    if (of != id) {
+      maker = policy::EnvironmentPolicy::maker(
+          std::make_shared<policy::TrainedAgent>(
+              policy::TrainedAgent::load(checkpoint, policy::alphabet_of(babyai::find_level(id)))),
+          greedy);
+      of = id;
+    }
+    return maker(id, seed, policy_seed);
+  };
+}
+
 int record(trace::RecordOptions options, const std::string& path) {
   const io::StopSignals signals("\ntrace: stopping; again to stop at once\n");
   if (path == "-") {
@@ -131,8 +148,7 @@ int run(Arguments a) {
     a.record.policy = bot::policy_maker(a.record.policy_name);
   } else {
     a.record.policy_name = a.greedy ? "agent, greedy" : "agent, sampled";
-    a.record.policy = policy::EnvironmentPolicy::maker(
-        std::make_shared<policy::TrainedAgent>(policy::TrainedAgent::load(a.checkpoint)), a.greedy);
+    a.record.policy = agent_maker(a.checkpoint, a.greedy);
   }
   return record(std::move(a.record), a.out);
 }

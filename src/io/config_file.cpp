@@ -21,7 +21,8 @@
 #include "wordgaze/core/edit_distance.hpp"
 #include "wordgaze/core/require.hpp"
 
-namespace wordgaze::io::detail {
+namespace wordgaze::io {
+namespace detail {
 namespace {
 
 using Options = std::span<const Option>;
@@ -299,4 +300,10 @@ std::vector<std::string> differences(Options a, Options b) {
   return lines;
 }
 
-}  // namespace wordgaze::io::detail
+}  // namespace detail
+
+std::string text_of(std::string_view key, std::string_view toml, std::string_view source) {
+  return detail::parsed(toml, source)[key].value_or(std::string());
+}
+
+}  // namespace wordgaze::io

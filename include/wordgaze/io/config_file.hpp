@@ -45,6 +45,9 @@ C parse_section(std::string_view toml, std::string_view section, std::string_vie
   return defaults;
 }
 
+/// The text of one key outside of all sections, whatever else there is; empty without it.
+std::string text_of(std::string_view key, std::string_view toml, std::string_view source);
+
 /// `defaults` with what the file says, which may be a pipe too.
 template <Section C>
 C read_config(const std::filesystem::path& path, C defaults = {}) {

@@ -28,7 +28,7 @@ inline Observation observe(const env::Environment& environment) {
   return observation;
 }
 
-/// The smallest alphabet that holds every cell a level can show. Weights do not depend on it.
+/// The smallest alphabet that holds every cell a level can show.
 inline model::CellAlphabet alphabet_of(const babyai::LevelSpec& level) {
   const bool one_room =
       level.rows == 1 && level.columns == 1 && level.rule == babyai::Rule::instruction;
