@@ -12,6 +12,7 @@
 #include "wordgaze/io/parameters.hpp"
 #include "wordgaze/io/weights_file.hpp"
 #include "wordgaze/policy/environment.hpp"
+#include "wordgaze/policy/level_file.hpp"
 
 namespace wordgaze::policy {
 namespace {
@@ -42,7 +43,7 @@ void check_sizes(const io::TensorMap& map, const model::Config& c) {
 model::CellAlphabet trained_alphabet(const std::string& configuration) {
   const std::string env = io::text_of("env", configuration, "wordgaze.config");
   try {
-    return alphabet_of(babyai::find_level(env));
+    return alphabet_of(level_of(env, io::text_of("level", configuration, "wordgaze.config")));
   } catch (const std::invalid_argument&) {
     return model::CellAlphabet::everything();  // a level of somebody's own
   }

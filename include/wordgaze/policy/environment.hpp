@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "wordgaze/babyai/level_text.hpp"
 #include "wordgaze/core/rng.hpp"
 #include "wordgaze/env/environment.hpp"
 #include "wordgaze/env/policy.hpp"
@@ -30,8 +31,8 @@ inline Observation observe(const env::Environment& environment) {
 
 /// The smallest alphabet that holds every cell a level can show.
 inline model::CellAlphabet alphabet_of(const babyai::LevelSpec& level) {
-  const bool one_room =
-      level.rows == 1 && level.columns == 1 && level.rule == babyai::Rule::instruction;
+  const bool one_room = level.rows == 1 && level.columns == 1 &&
+                        level.rule == babyai::Rule::instruction && !babyai::has_more(level);
   return one_room ? model::CellAlphabet::one_room() : model::CellAlphabet::everything();
 }
 
