@@ -12,6 +12,7 @@
 
 #include "command.hpp"
 #include "output.hpp"
+#include "own_level.hpp"
 #include "wordgaze/env/vector_env.hpp"
 #include "wordgaze/io/config_file.hpp"
 #include "wordgaze/io/stop_signals.hpp"
@@ -25,6 +26,7 @@ using Json = nlohmann::ordered_json;
 
 struct Arguments {
   std::string sim, reset, train, act;
+  std::vector<std::string> levels;
   int envs = 256, threads = 1;
   double seconds = 3;
   std::int64_t steps = 0, frames = 0;  // 0: as many as fit in `seconds`
@@ -37,6 +39,7 @@ void add_options(CLI::App& app, Arguments& a) {
   what->add_option("--train", a.train, "TOML file: the whole training loop");
   what->add_option("--act", a.act, "TOML file: one decision for one robot");
   what->require_option(1);
+  apps::add_level_option(app, a.levels, "that --sim or --reset names by its id");
   app.add_option("--envs", a.envs, "environments of --sim")
       ->check(apps::whole_number(1, 10'000'000));
   app.add_option("--seconds", a.seconds, "at least")->check(CLI::Range(0.01, 3600.0));
@@ -179,6 +182,7 @@ Json act(const Arguments& a) {
 
 int run(const Arguments& a) {
   const io::StopSignals signals("\nbench: stopping; again to stop at once\n");
+  for (const auto& file : a.levels) apps::register_level_file(file);
   const Json json = !a.sim.empty()     ? simulate(a)
                     : !a.reset.empty() ? reset(a)
                     : !a.train.empty() ? train(a)

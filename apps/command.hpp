@@ -19,14 +19,17 @@ struct Command {
   std::function<std::function<int()>(CLI::App& app)> set_up;
 };
 
-/// Accepts whole numbers from `low` to `high`, written as such: what the parser of the command line
-/// would make of "-1", "" or "0x10" is not what was meant.
+/// Accepts whole numbers from `low` to `high`, written as such or as 1e6: what the parser of the
+/// command line would make of "-1", "" or "0x10" is not what was meant.
 template <std::integral Number>
 CLI::Validator whole_number(Number low, Number high = std::numeric_limits<Number>::max()) {
   return CLI::Validator(
       [=](std::string& text) -> std::string {
-        const auto number = number_in<Number>(text);
-        if (number && *number >= low && *number <= high) return "";
+        const auto number = whole_number_in<Number>(text);
+        if (number && *number >= low && *number <= high) {
+          text = std::to_string(*number);
+          return "";
+        }
         return formatted("expected an integer from {} to {}; came '{}'", low, high,
                          shortened(text));
       },

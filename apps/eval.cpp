@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "chosen_level.hpp"
 #include "command.hpp"
 #include "listeners.hpp"
 #include "output.hpp"
@@ -36,7 +37,7 @@ using namespace wordgaze;
 using evaluation::Evaluation;
 
 struct Arguments {
-  std::string checkpoint, policy, env, json, pictures, page;
+  std::string checkpoint, policy, env, level, json, pictures, page;
   std::vector<int> rooms, objects;
   int episodes = 1000, page_episodes = 100;
   std::uint64_t seed = 1'000'000;
@@ -50,7 +51,9 @@ struct Arguments {
 void add_options(CLI::App& app, Arguments& a) {
   auto* who = app.add_option_group("who acts");
   who->add_option("--checkpoint", a.checkpoint, "an agent: file that train has written");
-  who->add_option("--policy", a.policy, "bot: BabyAI's expert, random, or mixed; wants --env")
+  who->add_option("--policy", a.policy,
+                  "bot: BabyAI's expert, random, or mixed; wants --env or "
+                  "--level")
       ->check(CLI::IsMember({"bot", "random", "mixed"}));
   who->require_option(1);
   app.add_option("--rooms", a.rooms, "room sizes N in place of the level's own, as 8,10,12")
@@ -59,7 +62,10 @@ void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--objects", a.objects, "numbers of objects K, as 4,8,12")
       ->delimiter(',')
       ->check(apps::whole_number(0));
-  app.add_option("--env", a.env, "environment in place of the one trained in");
+  auto* env = app.add_option("--env", a.env, "environment in place of the one trained in");
+  app.add_option("--level", a.level, "TOML file of a level of one's own, in place of --env")
+      ->type_name("FILE")
+      ->excludes(env);
   app.add_option("--episodes", a.episodes, "a setting")->check(apps::whole_number(1, 100'000'000));
   app.add_option("--seed", a.seed, "episode k runs in the world of seed SEED + k")
       ->check(apps::whole_number<std::uint64_t>(0));
@@ -180,7 +186,7 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
   if (!a.greedy && !a.sample) a.greedy = a.sample = true;
 
   // Every level is made before the first episode: a typing error should not cost an hour.
-  const auto levels = settings(a, babyai::find_level(a.env.empty() ? config.env : a.env));
+  const auto levels = settings(a, apps::chosen_level(a.level, a.env, config));
   a.listeners.checkpoint = a.checkpoint;
   apps::Listeners listeners(a.listeners);
   if (!a.pictures.empty()) apps::remove_old_pictures(a.pictures);
@@ -255,7 +261,8 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
 
 /// The bot or the random policy, for comparison.
 void evaluate_policy(const Arguments& a, nlohmann::ordered_json& report) {
-  require(!a.env.empty(), "--policy {} wants --env ID: in which environment?", a.policy);
+  require(!a.env.empty() || !a.level.empty(),
+          "--policy {} wants --env ID or --level FILE: in which environment?", a.policy);
   const bool attention = a.transparency || !a.pictures.empty() || !a.page.empty() ||
                          a.watch.wanted || !a.listeners.log.empty() || !a.listeners.url.empty() ||
                          a.greedy || a.sample;
@@ -265,7 +272,7 @@ void evaluate_policy(const Arguments& a, nlohmann::ordered_json& report) {
       "--lcm-url are for agents, which have a policy and attention to show; leave them out",
       a.policy);
   Team team(threads(a));
-  for (const auto& level : settings(a, babyai::find_level(a.env))) {
+  for (const auto& level : settings(a, apps::chosen_level(a.level, a.env, {.env = a.env}))) {
     const Evaluation evaluation{.level = level,
                                 .episodes = a.episodes,
                                 .seed = a.seed,

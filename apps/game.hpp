@@ -25,15 +25,10 @@ class Game {
     virtual evaluation::DecisionObserver* decisions() { return nullptr; }
   };
 
-  Game(const babyai::LevelSpec& level, std::shared_ptr<const policy::TrainedAgent> trained,
-       std::uint64_t seed, Screen& screen)
-      : trained_(std::move(trained)),
-        agent_(trained_->agent.config, policy::alphabet_of(level)),
-        weights_(agent_.make_weights(trained_->weights.params)),
-        policy_(agent_, weights_),
-        episode_(env::Environment(level)),
-        seed_(seed),
-        screen_(&screen) {
+  /// The agent must know the cells of the level, and outlive this.
+  Game(const babyai::LevelSpec& level, const policy::TrainedAgent& trained, std::uint64_t seed,
+       Screen& screen)
+      : policy_(trained), episode_(env::Environment(level)), seed_(seed), screen_(&screen) {
     begin();
   }
   Game(const Game&) = delete;
@@ -100,9 +95,6 @@ class Game {
     preview_->step({});
   }
 
-  std::shared_ptr<const policy::TrainedAgent> trained_;
-  policy::Agent agent_;
-  policy::Agent::Weights weights_;
   policy::NetworkPolicy<policy::Agent> policy_;
   evaluation::Episode episode_;
   std::uint64_t seed_;

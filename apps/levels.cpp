@@ -1,14 +1,19 @@
 // levels: which environments there are.
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "command.hpp"
 #include "output.hpp"
+#include "own_level.hpp"
 #include "wordgaze/babyai/level.hpp"
 #include "wordgaze/core/require.hpp"
+#include "wordgaze/draw/image.hpp"
+#include "wordgaze/draw/tile.hpp"
 #include "wordgaze/env/environment.hpp"
 #include "wordgaze/trace/level_docs.hpp"
 
@@ -16,8 +21,11 @@ namespace {
 
 using namespace wordgaze;
 
+constexpr int kTileSize = 32;  // pixels
+
 struct Arguments {
-  std::string pattern;
+  std::string pattern, pictures;
+  std::vector<std::string> levels;
   bool ids = false, page = false;
 };
 
@@ -26,6 +34,9 @@ int run(const Arguments& a) {
     trace::write_level_docs(std::cout);
     return 0;
   }
+  for (const auto& file : a.levels) apps::register_level_file(file);
+  draw::TileRenderer renderer(kTileSize);
+  if (!a.pictures.empty()) std::filesystem::create_directories(a.pictures);
   int shown = 0;
   for (const std::string& id : babyai::level_ids()) {
     if (id.find(a.pattern) == std::string::npos) continue;
@@ -41,6 +52,10 @@ int run(const Arguments& a) {
     env::Environment environment(level);
     environment.reset(1);
     const auto rooms = fmt::format("{}x{}", level.columns, level.rows);
+    if (!a.pictures.empty()) {
+      draw::write_png(std::filesystem::path(a.pictures) / (id + ".png"),
+                      renderer.world(environment.world()));
+    }
     apps::say("{:<45} {:>7} {:>6} {:>6}  {}\n", id, rooms, level.room_size, environment.max_steps(),
               environment.mission());
   }
@@ -60,7 +75,11 @@ wordgaze::apps::Command wordgaze::apps::levels_command() {
       [](CLI::App& app) {
         const auto a = std::make_shared<Arguments>();
         app.add_option("PATTERN", a->pattern, "only ids that contain this");
-        app.add_flag("--ids", a->ids, "ids alone, one a line");
+        apps::add_level_option(app, a->levels, "to list with the others (docs/own-level.md)");
+        auto* ids = app.add_flag("--ids", a->ids, "ids alone, one a line");
+        app.add_option("--pictures", a->pictures,
+                       "folder for a picture (PNG) of each, the world of seed 1 as ID.png")
+            ->excludes(ids);
         app.add_flag("--page", a->page, "docs/levels.md: all levels with all forms of missions");
         return [a] { return run(*a); };
       }};

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "chosen_level.hpp"
 #include "command.hpp"
 #include "game.hpp"
 #include "output.hpp"
@@ -20,7 +21,7 @@ namespace {
 using namespace wordgaze;
 
 struct Arguments {
-  std::string checkpoint, env;
+  std::string checkpoint, env, level;
   std::uint64_t seed = 1'000'000;
   double hz = 3;
   bool agent = false, terminal = false;
@@ -74,11 +75,11 @@ void obey(const std::string& text, apps::Game& game, page::LivePage& live, bool&
 }
 
 void play_in_browser(const Arguments& a, const babyai::LevelSpec& level,
-                     std::shared_ptr<const policy::TrainedAgent> trained) {
+                     const policy::TrainedAgent& trained) {
   const auto live = a.place.open({.title = "Play in " + level.id, .commands = true});
   live->on_run("play");
   BrowserScreen screen(*live);
-  apps::Game game(level, std::move(trained), a.seed, screen);
+  apps::Game game(level, trained, a.seed, screen);
   const io::StopSignals signals("\nplay: good bye\n");
   using Clock = std::chrono::steady_clock;
   const auto pause = std::chrono::milliseconds(static_cast<int>(1000 / a.hz));
@@ -96,12 +97,12 @@ void play_in_browser(const Arguments& a, const babyai::LevelSpec& level,
 }
 
 void play_in_terminal(const Arguments& a, const babyai::LevelSpec& level,
-                      std::shared_ptr<const policy::TrainedAgent> trained) {
+                      const policy::TrainedAgent& trained) {
   apps::say(
       "arrows: turn and go forward; p pick up, d drop, t toggle, e done; a: the agent's step, "
       "g: the agent to the end;\nm: another mission, n: another world, q: quit\n");
   apps::TerminalScreen screen;
-  apps::Game game(level, std::move(trained), a.seed, screen);
+  apps::Game game(level, trained, a.seed, screen);
   apps::Keyboard keyboard;
   using grid::Action;
   for (char key = keyboard.key(); key != 0 && key != 'q'; key = keyboard.key()) {
@@ -159,14 +160,12 @@ void play_in_terminal(const Arguments& a, const babyai::LevelSpec& level,
 }
 
 int run(const Arguments& a) {
-  const auto config = training::load_config(a.checkpoint);
-  auto trained =
-      std::make_shared<const policy::TrainedAgent>(policy::TrainedAgent::load(a.checkpoint));
-  const auto level = babyai::find_level(a.env.empty() ? config.env : a.env);
+  const auto level = apps::chosen_level(a.level, a.env, training::load_config(a.checkpoint));
+  const auto trained = policy::TrainedAgent::load(a.checkpoint, policy::alphabet_of(level));
   if (a.terminal) {
-    play_in_terminal(a, level, std::move(trained));
+    play_in_terminal(a, level, trained);
   } else {
-    play_in_browser(a, level, std::move(trained));
+    play_in_browser(a, level, trained);
   }
   return 0;
 }
@@ -182,6 +181,7 @@ wordgaze::apps::Command wordgaze::apps::play_command() {
             app.add_option("--checkpoint", a->checkpoint, "an agent: file that train has written")
                 ->required();
             app.add_option("--env", a->env, "environment in place of the one trained in");
+            app.add_option("--level", a->level, "the same, of a file: docs/own-level.md");
             app.add_option("--seed", a->seed, "of the first world")
                 ->check(whole_number<std::uint64_t>(0))
                 ->capture_default_str();

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "chosen_level.hpp"
 #include "command.hpp"
 #if WORDGAZE_WITH_LCM
 #include <fmt/format.h>
@@ -27,7 +28,7 @@ namespace {
 using namespace wordgaze;
 
 struct Arguments {
-  std::string checkpoint, env, url = "udpm://239.255.76.67:7667?ttl=0";
+  std::string checkpoint, env, level, url = "udpm://239.255.76.67:7667?ttl=0";
   std::size_t clients = 64;
   bool greedy = false, sample = false;
   std::uint64_t seed = 1;
@@ -38,6 +39,7 @@ void add_options(CLI::App& app, Arguments& a) {
       ->required();
   app.add_option("--env", a.env,
                  "level whose cells robots may show, in place of the one trained in");
+  app.add_option("--level", a.level, "the same, of a file: docs/own-level.md");
   app.add_option("--lcm-url", a.url, "where robots ask, udpm://[group[:port]][?ttl=n]")
       ->capture_default_str();
   app.add_option("--clients", a.clients,
@@ -66,8 +68,7 @@ std::string summary(const policy::Server::Counts& server,
 
 int run(const Arguments& a) {
   const io::StopSignals signals("\nserve: stopping; again to stop at once\n");
-  const auto level =
-      babyai::find_level(a.env.empty() ? training::load_config(a.checkpoint).env : a.env);
+  const auto level = apps::chosen_level(a.level, a.env, training::load_config(a.checkpoint));
   // As in evaluations: what a word says of a cell depends on which others there could be.
   const auto trained = policy::TrainedAgent::load(a.checkpoint, policy::alphabet_of(level));
   policy::NetworkPolicy agent(trained);

@@ -9,11 +9,13 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "command.hpp"
 #include "output.hpp"
+#include "own_level.hpp"
 #include "wordgaze/babyai/level.hpp"
 #include "wordgaze/bot/policy.hpp"
 #include "wordgaze/core/require.hpp"
@@ -31,6 +33,7 @@ using namespace wordgaze;
 
 struct Arguments {
   std::string replayed, checkpoint, out = "-", seeds = "0:4";
+  std::vector<std::string> levels;
   bool greedy = false;
   trace::RecordOptions record;
 };
@@ -74,6 +77,22 @@ env::PolicyMaker with_checks(env::PolicyMaker maker, std::function<void()> check
   };
 }
 
+/// An agent with the cells of the level that it acts in, as eval has it.
+env::PolicyMaker agent_maker(const std::string& checkpoint, bool greedy) {
+  std::string of;
+  env::PolicyMaker maker;
+  return [=](std::string_view id, std::uint64_t seed, std::uint64_t policy_seed) mutable {
+    if (of != id) {
+      maker = policy::EnvironmentPolicy::maker(
+          std::make_shared<policy::TrainedAgent>(
+              policy::TrainedAgent::load(checkpoint, policy::alphabet_of(babyai::find_level(id)))),
+          greedy);
+      of = id;
+    }
+    return maker(id, seed, policy_seed);
+  };
+}
+
 int record(trace::RecordOptions options, const std::string& path) {
   const io::StopSignals signals("\ntrace: stopping; again to stop at once\n");
   if (path == "-") {
@@ -94,34 +113,40 @@ int record(trace::RecordOptions options, const std::string& path) {
 void add_options(CLI::App& app, Arguments& a) {
   auto* replay = app.add_option("--replay", a.replayed,
                                 "compare the simulator with a trace ('-': standard input)");
-  auto* env = app.add_option("--env", a.record.ids, "record these ids (all: every known one)")
-                  ->delimiter(',')
-                  ->excludes(replay);
+  app.add_option("--env", a.record.ids, "record these ids (all: every known one)")
+      ->delimiter(',')
+      ->excludes(replay);
+  apps::add_level_option(app, a.levels, "to record, or to know in a replay");
   app.add_option("--seeds", a.seeds, "A:B, one stream of episodes for each seed from A to B - 1")
-      ->needs(env);
+      ->excludes(replay);
   auto* policy =
       app.add_option("--policy", a.record.policy_name, "who acts; mixed: the bot for even seeds")
           ->check(CLI::IsMember({"random", "bot", "mixed"}))
-          ->needs(env);
+          ->excludes(replay);
   auto* checkpoint =
       app.add_option("--checkpoint", a.checkpoint, "an agent acts: file that train has written")
-          ->needs(env)
+          ->excludes(replay)
           ->excludes(policy);
   app.add_flag("--greedy", a.greedy, "the agent's likeliest actions, not drawn ones")
       ->needs(checkpoint);
   app.add_option("--policy-seed", a.record.policy_seed, "varies the policy")
       ->check(apps::whole_number<std::uint64_t>(0))
-      ->needs(env);
+      ->excludes(replay);
   app.add_option("--steps", a.record.steps, "steps for each seed")
       ->check(apps::whole_number(0))
-      ->needs(env);
-  app.add_option("--out", a.out, "where to write ('-': standard output)")->needs(env);
-  app.add_flag("--done-actions", a.record.done_actions, "the reference's done mode")->needs(env);
+      ->excludes(replay);
+  app.add_option("--out", a.out, "where to write ('-': standard output)")->excludes(replay);
+  app.add_flag("--done-actions", a.record.done_actions, "the reference's done mode")
+      ->excludes(replay);
 }
 
 int run(Arguments a) {
+  for (const auto& file : a.levels) {
+    const std::string id = apps::register_level_file(file);
+    if (a.replayed.empty()) a.record.ids.push_back(id);
+  }
   if (!a.replayed.empty()) return replay(a.replayed);
-  require(!a.record.ids.empty(), "expected --replay FILE or --env ID");
+  require(!a.record.ids.empty(), "expected --replay FILE, --env ID or --level FILE");
   parse_seeds(a.seeds, a.record);
   if (a.record.ids == std::vector<std::string>{"all"}) a.record.ids = babyai::level_ids();
   for (const auto& id : a.record.ids) babyai::find_level(id);  // before anything is written
@@ -131,8 +156,7 @@ int run(Arguments a) {
     a.record.policy = bot::policy_maker(a.record.policy_name);
   } else {
     a.record.policy_name = a.greedy ? "agent, greedy" : "agent, sampled";
-    a.record.policy = policy::EnvironmentPolicy::maker(
-        std::make_shared<policy::TrainedAgent>(policy::TrainedAgent::load(a.checkpoint)), a.greedy);
+    a.record.policy = agent_maker(a.checkpoint, a.greedy);
   }
   return record(std::move(a.record), a.out);
 }

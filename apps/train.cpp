@@ -22,6 +22,7 @@
 #include "wordgaze/io/output_check.hpp"
 #include "wordgaze/io/progress.hpp"
 #include "wordgaze/io/stop_signals.hpp"
+#include "wordgaze/policy/level_file.hpp"
 #include "wordgaze/training/checkpoint.hpp"
 #include "wordgaze/training/resume.hpp"
 
@@ -32,7 +33,7 @@ using training::TrainConfig;
 namespace fs = std::filesystem;
 
 struct Arguments {
-  std::string config, out, init, tensorboard;
+  std::string config, level, out, init, tensorboard;
   std::vector<std::string> set;
   std::string seed, frames, threads;
   bool resume = false;
@@ -42,6 +43,9 @@ struct Arguments {
 
 void add_options(CLI::App& app, Arguments& a) {
   app.add_option("--config", a.config, "TOML file of settings, as configs/single.toml");
+  app.add_option("--level", a.level,
+                 "TOML file of a level of one's own to train in (docs/own-level.md)")
+      ->type_name("FILE");
   app.add_option("--out", a.out, "folder for config.toml, metrics.csv and checkpoint.safetensors")
       ->required();
   app.add_option("--seed", a.seed, "the same as --set seed=S")
@@ -69,6 +73,11 @@ TrainConfig resolve(const Arguments& a) {
   if (!a.seed.empty()) io::set_option(config, "seed=" + a.seed);
   if (!a.frames.empty()) io::set_option(config, "frames=" + a.frames);
   if (!a.threads.empty()) io::set_option(config, "threads=" + a.threads);
+  if (!a.level.empty()) {
+    const babyai::LevelSpec level = policy::load_level(a.level);
+    config.env = level.id;
+    config.level = io::to_toml(policy::read_level_file(a.level));
+  }
   training::validate(config);
   return config;
 }
@@ -83,9 +92,10 @@ struct Folder {
 /// Refuses to write over what is read.
 void check_files(const Arguments& a, const Folder& out) {
   const std::array outputs{io::NamedPath{"--lcm-log", a.listeners.log}};
-  const std::array inputs{io::NamedPath{"--config", a.config}, io::NamedPath{"--init", a.init},
-                          io::NamedPath{"--out", out.config}, io::NamedPath{"--out", out.metrics},
-                          io::NamedPath{"--out", out.checkpoint}};
+  const std::array inputs{
+      io::NamedPath{"--config", a.config}, io::NamedPath{"--init", a.init},
+      io::NamedPath{"--level", a.level},   io::NamedPath{"--out", out.config},
+      io::NamedPath{"--out", out.metrics}, io::NamedPath{"--out", out.checkpoint}};
   io::check_outputs(outputs, inputs);
 }
 
@@ -94,6 +104,10 @@ void check_folder(const Arguments& a, const TrainConfig& config, const Folder& o
   const std::string place = fmt::format("--out '{}'", a.out);
   if (fs::exists(out.config)) {
     auto before = io::read_config<TrainConfig>(out.config);
+    require(before.level.empty() || !config.level.empty(),
+            "{} holds a run in the level '{}' of a file; give that file again, as --level FILE, or "
+            "--config '{}'",
+            place, before.env, out.config.string());
     training::check_same_run(place, before, config);
     // A longer run may go on where a shorter one ended.
     require(a.resume || before.frames == config.frames,

@@ -11,8 +11,12 @@
 #include <string>
 
 #include "command.hpp"
+#include "wordgaze/core/edit_distance.hpp"
+#include "wordgaze/io/config_file.hpp"
 #include "wordgaze/io/standard_streams.hpp"
 #include "wordgaze/io/stop_signals.hpp"
+#include "wordgaze/training/config.hpp"
+#include "wordgaze/version.hpp"
 
 namespace {
 
@@ -34,11 +38,46 @@ void refuse_empty_options(const CLI::App& app) {
   for (const CLI::App* command : app.get_subcommands()) refuse_empty_options(*command);
 }
 
+/// What may have been meant by an option that there is not: a setting of training, or the option
+/// that is written most like it.
+std::string meant_by(const CLI::App& command, const std::string& option) {
+  if (!option.starts_with("--")) return "";
+  const std::string name = option.substr(2, option.find('=') - 2);
+  if (command.get_name() == "train") {
+    const std::string key = io::key_named<training::TrainConfig>(name);
+    if (!key.empty()) return "--set " + key + "=...";
+  }
+  std::string best;
+  std::size_t least = 1 + name.size() / 2;
+  for (const CLI::Option* known : command.get_options()) {
+    const auto& names = known->get_lnames();
+    if (names.empty() || edit_distance(name, names[0]) >= least) continue;
+    least = edit_distance(name, names[0]);
+    best = "--" + names[0];
+  }
+  return best;
+}
+
+/// The command whose arguments were not understood.
+const CLI::App& innermost(const CLI::App& app) {
+  const auto commands = app.get_subcommands();
+  return commands.empty() ? app : innermost(*commands.front());
+}
+
 /// Parses, and runs what was asked for.
 int parse_and_run(CLI::App& app, const std::function<int()>& run, int argc, char** argv) {
-  app.set_version_flag("--version", "wordgaze " WORDGAZE_VERSION);
+  app.set_version_flag("--version", "wordgaze " + std::string(kVersion));
   try {
     app.parse(argc, argv);
+  } catch (const CLI::ExtrasError& error) {
+    for (const std::string& extra : app.remaining(true)) {
+      const std::string meant = meant_by(innermost(app), extra);
+      if (!meant.empty())
+        throw std::invalid_argument(extra + ": there is no such option; did you mean " + meant +
+                                    "?");
+    }
+    app.exit(error);
+    return kBadUse;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kBadUse;  // --help and --version are no errors
   }
@@ -48,6 +87,7 @@ int parse_and_run(CLI::App& app, const std::function<int()>& run, int argc, char
 
 int run_alone(const apps::Command& command, int argc, char** argv) {
   CLI::App app{std::string(command.about), std::string(command.name)};
+  app.option_defaults()->always_capture_default();
   const auto run = command.set_up(app);
   return parse_and_run(app, run, argc, argv);
 }
@@ -61,6 +101,7 @@ int run_command(const std::string& called, int argc, char** argv) {
   if (named != commands.end()) return run_alone(*named, argc, argv);
 
   CLI::App app{"Language-guided robot learning that shows what it looks at.", "wordgaze"};
+  app.option_defaults()->always_capture_default();  // of the commands too
   app.require_subcommand(1);
   std::function<int()> chosen;
   for (const apps::Command& command : commands) {

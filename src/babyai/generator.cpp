@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <stdexcept>
 #include <variant>
 
@@ -12,7 +13,12 @@
 namespace wordgaze::babyai {
 namespace {
 
-constexpr int kMaxLayouts = 500'000;
+/// Layouts to try, which take longer the larger they are.
+int max_layouts(const grid::World& world) {
+  constexpr int kMost = 500'000, kCells = 4096;
+  const int cells = world.grid.width() * world.grid.height();
+  return cells <= kCells ? kMost : static_cast<int>(std::int64_t{kMost} * kCells / cells);
+}
 
 // "Put A next to B" must have something left to do.
 bool can_be_put(const grid::World& world, grid::ObjectSet objects, grid::ObjectSet next_to) {
@@ -99,7 +105,7 @@ bool generate(const LevelSpec& level, core::Rng& rng, grid::World& world, Task& 
   try {
     int layouts = 1;
     while (!try_layout(level, rng, world, task)) {
-      if (++layouts > kMaxLayouts) return false;
+      if (++layouts > max_layouts(world)) return false;
     }
   } catch (const grid::GaveUp&) {
     return false;

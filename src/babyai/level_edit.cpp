@@ -37,6 +37,10 @@ int max_objects(const LevelSpec& level) {
 LevelSpec edited(const LevelSpec& level, const Edit& edit) {
   LevelSpec result = level;
   EditedId id = EditedId::parse(level.id);
+  const auto* plan = std::get_if<Plan>(&level.parameters);
+  require(!edit.room_size || plan == nullptr || !plan->is_map(),
+          "level '{}': room_size = {}; expected none, as it is a map", level.id,
+          edit.room_size.value_or(0));
   if (edit.room_size && *edit.room_size != level.room_size) {
     id.edit.room_size = result.room_size = *edit.room_size;
   }

@@ -109,6 +109,8 @@ constexpr std::array kRows{
 
     Row{any_mission, with(besides(1, kMaze), [](Needs& n) { n.kind = kind_of<Missions>(); })},
 
+    Row{planned, {.kind = kind_of<Plan>()}},
+
     Row{empty_room, kOneGrid},
     Row{empty_room_random_start, kOneGrid},
     Row{dist_shift_near, {.most = 1, .smallest = 9, .largest = 9}},

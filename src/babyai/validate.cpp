@@ -31,8 +31,8 @@ class Checker {
  private:
   static std::string_view kind_name(std::size_t kind) {
     constexpr std::array<std::string_view, std::variant_size_v<Parameters>> kNames{
-        "none",      "Objects",   "OneRoomTask", "Missions",       "Doors",
-        "Crossings", "MultiRoom", "Obstacles",   "ObstructedDoor", "Maze"};
+        "none",      "Objects",   "OneRoomTask",    "Missions", "Doors", "Crossings",
+        "MultiRoom", "Obstacles", "ObstructedDoor", "Maze",     "Plan"};
     return kNames[kind];
   }
 
@@ -122,6 +122,29 @@ class Checker {
     within("agent_column", p.agent_column, 0, level_.columns - 1);
     within("agent_row", p.agent_row, 0, level_.rows - 1);
     within("quarters", p.quarters, 1, 4);
+  }
+
+  void check(const Plan& p) const {
+    within("width of the map", p.width, p.is_map() ? 2 : 0, kMaxGridSide);
+    within("height of the map", p.height, p.is_map() ? 1 : 0, p.is_map() ? kMaxGridSide : 0);
+    const auto inside = [&](grid::Position at) {
+      return at.x >= 0 && at.x < p.width && at.y >= 0 && at.y < p.height;
+    };
+    std::size_t objects = p.objects.size();
+    for (const Plan::Cell& cell : p.cells) {
+      require(inside(cell.place), "level '{}': its map has a cell at ({}, {}) outside of it",
+              level_.id, cell.place.x, cell.place.y);
+      const auto type = cell.thing.type.value_or(grid::Type::key);
+      objects += type == grid::Type::door || (type >= grid::Type::key && type <= grid::Type::box);
+    }
+    require(!p.agent || inside(*p.agent), "level '{}': its agent stands outside of the map",
+            level_.id);
+    require(objects <= static_cast<std::size_t>(objects_left(level_)),
+            "level '{}': {} doors, keys, balls and boxes; a world holds at most {}{}", level_.id,
+            objects, objects_left(level_), p.is_map() ? "" : " besides the doors of its rooms");
+    const bool goal = level_.rule != Rule::instruction;
+    require(goal == p.missions.empty(), "level '{}': {}", level_.id,
+            goal ? "its rule is not the instruction, so it takes no missions" : "has no missions");
   }
 
   const LevelSpec& level_;

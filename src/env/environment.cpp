@@ -1,5 +1,6 @@
 #include "wordgaze/env/environment.hpp"
 
+#include <cmath>
 #include <random>
 #include <stdexcept>
 #include <utility>
@@ -82,6 +83,30 @@ Transition Environment::step(Action action) {
   if (!seeded_) {
     throw std::logic_error(formatted("environment '{}': step before the first reset", spec_->id));
   }
+  return spec_->judge ? step_as_judged(action) : step_as_ruled(action);
+}
+
+// What a judge that throws has not seen is taken back.
+Transition Environment::step_as_judged(Action action) {
+  Environment after = *this;
+  Transition transition = after.step_as_ruled(action);
+  const babyai::Verdict verdict =
+      spec_->judge({.world = after.world_,
+                    .task = after.task_,
+                    .verifier = after.verifier_,
+                    .action = action,
+                    .rule = {.reward = transition.reward, .terminated = transition.terminated}});
+  if (!std::isfinite(verdict.reward)) {
+    throw std::logic_error(
+        formatted("environment '{}': its judge gave a reward of {}", spec_->id, verdict.reward));
+  }
+  transition.reward = verdict.reward;
+  transition.terminated = verdict.terminated;
+  *this = std::move(after);
+  return transition;
+}
+
+Transition Environment::step_as_ruled(Action action) {
   if (spec_->rule != babyai::Rule::instruction) {
     return step_by_rule(spec_->rule, world_, task_, rng_, action);
   }

@@ -19,9 +19,11 @@
 #pragma pop_macro("NDEBUG")
 
 #include "wordgaze/core/edit_distance.hpp"
+#include "wordgaze/core/number.hpp"
 #include "wordgaze/core/require.hpp"
 
-namespace wordgaze::io::detail {
+namespace wordgaze::io {
+namespace detail {
 namespace {
 
 using Options = std::span<const Option>;
@@ -126,6 +128,20 @@ void assign(const Option& option, const Value& value, std::string_view where) {
           value_text(value));
 }
 
+/// A list of texts is a text of as many lines.
+std::optional<Value> lines(const toml::node& node) {
+  const toml::array* list = node.as_array();
+  if (list == nullptr) return std::nullopt;
+  std::string text;
+  for (const auto& entry : *list) {
+    const auto* line = entry.as_string();
+    if (line == nullptr) return std::nullopt;
+    if (!text.empty()) text += '\n';
+    text += line->get();
+  }
+  return text;
+}
+
 std::optional<Value> scalar(const toml::node& node) {
   if (const auto* v = node.as_boolean()) return Value(v->get());
   if (const auto* v = node.as_integer()) return Value(v->get());
@@ -145,24 +161,13 @@ void assign_table(Options options, const toml::table& table, const std::string& 
               key);
       assign_table(options, *node.as_table(), key + ".", source);
     } else {
-      const std::optional<Value> value = scalar(node);
+      const std::optional<Value> value =
+          option.kind == Kind::text && node.is_array() ? lines(node) : scalar(node);
       require(value.has_value(), "{}: {}: expected {}; came {}", where, key, expected_text(option),
               node.is_table() ? "a section" : "a list or a date");
       assign(option, *value, where);
     }
   }
-}
-
-/// Lists, tables and the parts of a key nest, and the parser recurs: no configuration of ours comes
-/// near these bounds.
-void check_bounds(std::string_view toml, std::string_view source) {
-  constexpr std::ptrdiff_t kMostNesting = 2000;
-  const auto nests = [](char c) { return c == '.' || c == '[' || c == '{'; };
-  require(toml.size() <= kMostConfigBytes, "{}: {} bytes; a configuration has at most {}", source,
-          toml.size(), kMostConfigBytes);
-  require(std::ranges::count_if(toml, nests) <= kMostNesting,
-          "{}: more than {} dots and opening brackets; a configuration has fewer", source,
-          kMostNesting);
 }
 
 /// Behind the string that begins at `begin` with a quote: one line, or any number between three
@@ -185,9 +190,9 @@ std::size_t end_of_string(std::string_view toml, std::size_t begin) {
   return toml.size();
 }
 
-/// TOML has letters beyond ASCII in texts and comments alone. toml++ 3.3 has undefined behavior for
-/// some of those that stand elsewhere: it asks whether they are white space.
-void check_letters(std::string_view toml, std::string_view source) {
+/// Calls f(place) for each character outside of texts and comments.
+template <class F>
+void for_each_bare(std::string_view toml, F&& f) {
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
   std::size_t i = toml.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0;
   while (i < toml.size()) {
@@ -195,14 +200,35 @@ void check_letters(std::string_view toml, std::string_view source) {
       i = std::min(toml.find('\n', i), toml.size());
     } else if (toml[i] == '"' || toml[i] == '\'') {
       i = end_of_string(toml, i);
-    } else if (static_cast<unsigned char>(toml[i]) >= 0x80) {
-      throw std::invalid_argument(fmt::format(
-          "{}:{}: not valid TOML: a letter beyond ASCII outside quotes; put text in quotes", source,
-          1 + std::ranges::count(toml.substr(0, i), '\n')));
     } else {
-      ++i;
+      f(i++);
     }
   }
+}
+
+/// Lists, tables and the parts of a key nest, and the parser recurs: no configuration of ours comes
+/// near these bounds.
+void check_bounds(std::string_view toml, std::string_view source) {
+  constexpr int kMostNesting = 2000;
+  require(toml.size() <= kMostConfigBytes, "{}: {} bytes; a configuration has at most {}", source,
+          toml.size(), kMostConfigBytes);
+  int nesting = 0;
+  for_each_bare(
+      toml, [&](std::size_t i) { nesting += toml[i] == '.' || toml[i] == '[' || toml[i] == '{'; });
+  require(nesting <= kMostNesting,
+          "{}: more than {} dots and opening brackets; a configuration has fewer", source,
+          kMostNesting);
+}
+
+/// TOML has letters beyond ASCII in texts and comments alone. toml++ 3.3 has undefined behavior for
+/// some of those that stand elsewhere: it asks whether they are white space.
+void check_letters(std::string_view toml, std::string_view source) {
+  for_each_bare(toml, [&](std::size_t i) {
+    if (static_cast<unsigned char>(toml[i]) < 0x80) return;
+    throw std::invalid_argument(fmt::format(
+        "{}:{}: not valid TOML: a letter beyond ASCII outside quotes; put text in quotes", source,
+        1 + std::ranges::count(toml.substr(0, i), '\n')));
+  });
 }
 
 toml::table parsed(std::string_view toml, std::string_view source) {
@@ -222,6 +248,8 @@ toml::table parsed(std::string_view toml, std::string_view source) {
 /// What follows "key=" on a command line: TOML where it is TOML, else the bare text.
 Value command_line_value(std::string_view text, Kind kind) {
   Value bare = std::string(text);
+  const auto whole = whole_number_in<std::int64_t>(text);
+  if (kind == Kind::integer && whole) return *whole;
   check_bounds(text, "--set");
   try {
     const toml::table table = parsed("value = " + std::string(text), "--set");
@@ -275,6 +303,16 @@ std::string toml_text(Options options) {
   return out;
 }
 
+std::string key_named(std::string_view name, Options options) {
+  std::string key;
+  for (const Option& option : options) {
+    if (option.kind == Kind::section || last_name(option.key) != name) continue;
+    if (!key.empty()) return "";
+    key = option.key;
+  }
+  return key;
+}
+
 std::string markdown_text(Options options) {
   constexpr std::string_view head = "| key | default | range | description |\n|---|---|---|---|\n";
   std::string out(options.empty() || options.front().kind == Kind::section ? "" : head);
@@ -293,10 +331,16 @@ std::vector<std::string> differences(Options a, Options b) {
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < a.size(); ++i) {
     if (a[i].kind == Kind::section || a[i].text() == b[i].text()) continue;
-    lines.push_back(
-        fmt::format("{}: {} in the first, {} in the second", a[i].key, a[i].text(), b[i].text()));
+    lines.push_back(fmt::format("{}: {} in the first, {} in the second", a[i].key,
+                                shortened(a[i].text()), shortened(b[i].text())));
   }
   return lines;
 }
 
-}  // namespace wordgaze::io::detail
+}  // namespace detail
+
+std::string text_of(std::string_view key, std::string_view toml, std::string_view source) {
+  return detail::parsed(toml, source)[key].value_or(std::string());
+}
+
+}  // namespace wordgaze::io

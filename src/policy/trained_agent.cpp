@@ -5,11 +5,14 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "wordgaze/core/formatted.hpp"
 #include "wordgaze/io/config_file.hpp"
 #include "wordgaze/io/parameters.hpp"
 #include "wordgaze/io/weights_file.hpp"
+#include "wordgaze/policy/environment.hpp"
+#include "wordgaze/policy/level_file.hpp"
 
 namespace wordgaze::policy {
 namespace {
@@ -36,16 +39,23 @@ void check_sizes(const io::TensorMap& map, const model::Config& c) {
   }
 }
 
-}  // namespace
+/// The cells of the level of a configuration.
+model::CellAlphabet trained_alphabet(const std::string& configuration) {
+  const std::string env = io::text_of("env", configuration, "wordgaze.config");
+  try {
+    return alphabet_of(level_of(env, io::text_of("level", configuration, "wordgaze.config")));
+  } catch (const std::invalid_argument&) {
+    return model::CellAlphabet::everything();  // a level of somebody's own
+  }
+}
 
-TrainedAgent TrainedAgent::load(const std::filesystem::path& path,
-                                const model::CellAlphabet& alphabet) {
+TrainedAgent load_with(const std::filesystem::path& path, const model::CellAlphabet* alphabet) {
   const io::TensorMap map = io::read_weights_file(path);
   try {
-    const auto config =
-        io::parse_section<model::Config>(io::configuration_text(map), "model", "wordgaze.config");
+    const std::string text = io::configuration_text(map);
+    const auto config = io::parse_section<model::Config>(text, "model", "wordgaze.config");
     check_sizes(map, config);
-    const Agent agent(config, alphabet);
+    const Agent agent(config, alphabet != nullptr ? *alphabet : trained_alphabet(text));
     auto params = agent.make_params();
     io::get_parameters(
         map, "", [](const nn::Path&) { return false; }, params);
@@ -53,6 +63,17 @@ TrainedAgent TrainedAgent::load(const std::filesystem::path& path,
   } catch (const std::exception& error) {
     io::fail_weights_file(path, error.what());
   }
+}
+
+}  // namespace
+
+TrainedAgent TrainedAgent::load(const std::filesystem::path& path) {
+  return load_with(path, nullptr);
+}
+
+TrainedAgent TrainedAgent::load(const std::filesystem::path& path,
+                                const model::CellAlphabet& alphabet) {
+  return load_with(path, &alphabet);
 }
 
 }  // namespace wordgaze::policy

@@ -24,5 +24,17 @@ TEST(NumberIn, ReadsNothingElse) {
   EXPECT_EQ(number_in<int>(std::string(1'000'000, '9')), std::nullopt);
 }
 
+TEST(WholeNumberIn, MayHaveAnExponent) {
+  EXPECT_EQ(whole_number_in<int>("1e6"), 1'000'000);
+  EXPECT_EQ(whole_number_in<std::int64_t>("2.5E9"), 2'500'000'000);
+  EXPECT_EQ(whole_number_in<int>("-3e0"), -3);
+  EXPECT_EQ(whole_number_in<std::uint64_t>("18446744073709551615"), UINT64_MAX);
+  for (const char* text : {"1.5", "2.0", "1.5e0", "1e-3", "1e10", "1e99", "inf", "nan", "e", "1e",
+                           "1e6 ", "0x1e6", ""}) {
+    EXPECT_EQ(whole_number_in<int>(text), std::nullopt) << '"' << text << '"';
+  }
+  EXPECT_EQ(whole_number_in<std::uint64_t>("-1e3"), std::nullopt);
+}
+
 }  // namespace
 }  // namespace wordgaze

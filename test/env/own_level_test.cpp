@@ -1,11 +1,15 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "support/messages.hpp"
 #include "wordgaze/babyai/generators.hpp"
 #include "wordgaze/babyai/layout.hpp"
+#include "wordgaze/babyai/level_edit.hpp"
+#include "wordgaze/babyai/level_text.hpp"
 #include "wordgaze/babyai/minigrid_stages.hpp"
 #include "wordgaze/babyai/stages.hpp"
 #include "wordgaze/env/environment.hpp"
@@ -267,6 +271,128 @@ TEST(OwnGenerator, IsToldItsMistakes) {
     EXPECT_THROW(env.reset(1), std::exception) << mistake.what;
     EXPECT_THROW(env.step(Action::left), std::logic_error) << mistake.what;
   }
+}
+
+// Reward and end as a function.
+
+Environment judged(const char* id, babyai::Judge judge) {
+  LevelSpec level = babyai::find_level(id);
+  level.judge = std::move(judge);
+  Environment environment(level);
+  environment.reset(1);
+  return environment;
+}
+
+TEST(Judge, SaysRewardAndEnd) {
+  Environment room = judged("BabyAI-GoToLocal-v0", [](const babyai::Moment& moment) {
+    const bool turned = moment.action == Action::left;
+    return babyai::Verdict{.reward = turned ? 0.25 : -0.5,
+                           .terminated = moment.world.step_count == 3};
+  });
+  const auto first = room.step(Action::left), second = room.step(Action::right),
+             third = room.step(Action::left);
+  EXPECT_EQ(first.reward, 0.25);
+  EXPECT_FALSE(first.terminated);
+  EXPECT_EQ(second.reward, -0.5);
+  EXPECT_EQ(third.reward, 0.25);
+  EXPECT_TRUE(third.terminated);
+  EXPECT_FALSE(third.truncated);
+}
+
+TEST(Judge, MayGoByTheRuleAndStaysDeterministic) {
+  const auto plus = [](const babyai::Moment& moment) {
+    return babyai::Verdict{.reward = moment.rule.reward + 0.01,
+                           .terminated = moment.rule.terminated};
+  };
+  for (const char* id :
+       {"BabyAI-GoToLocal-v0", "MiniGrid-Dynamic-Obstacles-5x5-v0", "MiniGrid-DoorKey-5x5-v0"}) {
+    Environment shaped = judged(id, plus), plain(id);
+    plain.reset(1);
+    core::Rng rng(7);
+    for (int step = 0; step < 300; ++step) {
+      const auto action = static_cast<Action>(rng.below(plain.num_actions()));
+      const auto a = shaped.step(action), b = plain.step(action);
+      ASSERT_EQ(a.reward, b.reward + 0.01);
+      ASSERT_EQ(a.terminated, b.terminated);
+      ASSERT_EQ(a.truncated, b.truncated);
+      expect_equal(shaped, plain);
+      if (!b.terminated && !b.truncated) continue;
+      shaped.reset();
+      plain.reset();
+    }
+  }
+}
+
+TEST(Judge, KnowsTheTaskAndWhatIsDoneOfIt) {
+  bool knew = false;
+  Environment room = judged("Wordgaze-Two-N8-K4-v0", [&](const babyai::Moment& moment) {
+    knew = moment.task.instruction.clauses() == 2 && moment.verifier.completion().size() == 2;
+    return moment.rule;
+  });
+  room.step(Action::left);
+  EXPECT_TRUE(knew);
+}
+
+TEST(Judge, ThatFailsChangesNothing) {
+  const auto broken = {
+      babyai::Judge(
+          [](const babyai::Moment&) -> babyai::Verdict { throw std::runtime_error("no opinion"); }),
+      babyai::Judge([](const babyai::Moment&) { return babyai::Verdict{.reward = std::nan("")}; })};
+  for (const auto& judge : broken) {
+    Environment room = judged("BabyAI-GoToLocal-v0", judge);
+    const auto before = room.serialize();
+    EXPECT_ANY_THROW(room.step(Action::left));
+    EXPECT_EQ(room.serialize(), before);
+  }
+}
+
+// Levels of data.
+
+TEST(PlannedLevel, RunsAndCanBeRestored) {
+  for (const babyai::LevelText& text : {babyai::LevelText{.id = "Own-Map-v0",
+                                       .map = "A..L\nK.D.\nX..G",
+                                       .objects = "2 balls",
+                                       .missions = "go to {}\nopen the door"},
+                                        babyai::LevelText{.id = "Own-Rooms-v0",
+                                        .room_size = 5,
+                                        .columns = 2,
+                                        .rows = 2,
+                                        .objects = "3 objects",
+                                        .missions = "go to {}, then pick up {}",
+                                        .done = babyai::Done::declared}}) {
+    const LevelSpec level = babyai::level_of(text);
+    Environment environment(level), twin(level);
+    environment.reset(5);
+    core::Rng rng(3);
+    for (int step = 0; step < 400; ++step) {
+      twin.restore(environment.serialize());
+      const auto action = static_cast<Action>(rng.below(environment.num_actions()));
+      const auto a = environment.step(action), b = twin.step(action);
+      ASSERT_EQ(a.reward, b.reward);
+      expect_equal(environment, twin);
+      if (a.terminated || a.truncated) environment.reset();
+    }
+  }
+}
+
+TEST(PlannedLevel, TheAgentStaysInAMapWithoutWalls) {
+  Environment room(babyai::level_of({.id = "Own-Open-v0", .map = "..\n.G", .objects = ""}));
+  for (int seed = 0; seed < 20; ++seed) {
+    room.reset(seed);
+    core::Rng rng(3);
+    for (bool ended = false; !ended;) {
+      const auto t = room.step(static_cast<Action>(rng.below(3)));
+      ended = t.terminated || t.truncated;
+      ASSERT_TRUE(room.world().grid.contains(room.world().agent));
+    }
+  }
+}
+
+TEST(PlannedLevel, HasNoRoomSizeToEditWhereItIsAMap) {
+  const LevelSpec map = babyai::level_of({.id = "Own-Open-v0", .map = "..\n.G"});
+  EXPECT_THROW(babyai::with_room(map, 9), std::invalid_argument);
+  const LevelSpec rooms = babyai::level_of({.id = "Own-R-v0", .objects = "goal"});
+  EXPECT_EQ(babyai::with_room(rooms, 9).room_size, 9);
 }
 
 }  // namespace

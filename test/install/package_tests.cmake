@@ -27,7 +27,8 @@ endfunction()
 
 wordgaze_consumer(consumer "${CMAKE_CURRENT_SOURCE_DIR}/install"
   "-DWITH_LCM=${WORDGAZE_WITH_LCM}" TEST consumer)
-wordgaze_consumer(eigen_alone "${CMAKE_CURRENT_SOURCE_DIR}/install/eigen_alone" ""
+wordgaze_consumer(eigen_alone "${CMAKE_CURRENT_SOURCE_DIR}/install/eigen_alone"
+  "-DMODEL=${PROJECT_SOURCE_DIR}/models/single-attention.safetensors"
   TEST ${CMAKE_CTEST_COMMAND} --output-on-failure)
 wordgaze_consumer(extend "${CMAKE_CURRENT_SOURCE_DIR}/extend"
   "-DMODEL=${PROJECT_SOURCE_DIR}/models/single-attention.safetensors"

@@ -278,6 +278,47 @@ TEST(Reference, ListsEachSettingOfEachSection) {
   EXPECT_TRUE(contains(text, "| `training.steps` | `20` | [1, 4096] | steps of a rollout |\n"));
 }
 
+TEST(ConfigFile, AListOfTextsIsATextOfLines) {
+  EXPECT_EQ(parse_config<Config>("env = [\"a\", \"b c\"]", "a.toml").env, "a\nb c");
+  EXPECT_EQ(parse_config<Config>("env = []", "a.toml").env, "");
+  EXPECT_TRUE(contains(refusal("env = [\"a\", 1]"), "env: expected text; came a list"));
+  EXPECT_TRUE(contains(refusal("frames = [\"1\"]"), "frames: expected an integer"));
+}
+
+TEST(ConfigFile, KeepsTextsOfManyLines) {
+  Config config;
+  config.env = "a \"map\"\n#..#\n\t\\";
+  EXPECT_EQ(parse_config<Config>(to_toml(config), "a.toml"), config);
+  EXPECT_TRUE(contains(to_toml(config), "\\n#..#\\n"));
+}
+
+TEST(ConfigFile, CountsNestingOutsideOfTextsAndComments) {
+  const std::string dots(5000, '.');
+  EXPECT_EQ(parse_config<Config>("env = \"" + dots + "\" # " + dots, "a.toml").env, dots);
+  EXPECT_EQ(parse_config<Config>("env = \"\"\"\n" + dots + "\n\"\"\"", "a.toml").env, dots + "\n");
+}
+
+TEST(ConfigFile, FindsOneTextWhateverElseThereIs) {
+  EXPECT_EQ(text_of("level", "other = 1\nlevel = \"x\"\n[s]\nlevel = \"y\"", "a.toml"), "x");
+  EXPECT_EQ(text_of("level", "[s]\nlevel = \"y\"", "a.toml"), "");
+  EXPECT_EQ(text_of("level", "level = 3", "a.toml"), "");
+}
+
+TEST(ConfigFile, KnowsASettingByItsLastName) {
+  EXPECT_EQ(key_named<Config>("steps"), "training.steps");
+  EXPECT_EQ(key_named<Config>("env"), "env");
+  EXPECT_EQ(key_named<Config>("clip"), "");  // a section
+  EXPECT_EQ(key_named<Config>("nothing"), "");
+}
+
+TEST(SetOption, TakesWholeNumbersWithAnExponent) {
+  Config config;
+  set_option(config, "frames=4e6");
+  EXPECT_EQ(config.frames, 4'000'000);
+  EXPECT_TRUE(contains(refusal_to_set("frames=1.5e0"), "frames: expected an integer"));
+  EXPECT_TRUE(contains(refusal_to_set("frames=1e13"), "frames: expected an integer"));
+}
+
 TEST(HostileConfiguration, IsRefusedBeforeItIsParsed) {
   const auto refusal = [](const std::string& toml) {
     return message_of<std::invalid_argument>([&] { parse_config<Config>(toml, "bad.toml"); });

@@ -108,8 +108,9 @@ TEST_F(Hostile, NumbersThatAreNone) {
     EXPECT_TRUE(refused_at_once(std::string("trace --env BabyAI-GoToObj-v0 --seeds ") + seeds,
                                 "expected A:B"));
   }
-  for (const char* option : {"--rooms ''", "--rooms 8x", "--rooms 99999999999", "--objects -1",
-                             "--threads ''", "--episodes 1e3"}) {
+  for (const char* option :
+       {"--rooms ''", "--rooms 8x", "--rooms 99999999999", "--objects -1", "--threads ''",
+        "--episodes 1.5e0", "--episodes 1e-3", "--episodes 1e99"}) {
     EXPECT_TRUE(refused_at_once(bot + option, "expected an integer"));
   }
   EXPECT_TRUE(succeeded(run(bot + "--seed 18446744073709551615")));

@@ -35,6 +35,35 @@ TEST_F(Program, SaysItsVersionAndHelpInOneWay) {
   EXPECT_TRUE(contains(run("wordgaze --help").out, "levels"));
 }
 
+TEST_F(Program, HelpSaysDefaults) {
+  for (const std::string eval : {"eval --help", "wordgaze eval --help"}) {
+    EXPECT_TRUE(contains(run(eval).out, "[1000]")) << eval;  // episodes
+  }
+  EXPECT_TRUE(contains(run("bench --help").out, "[256]"));
+  EXPECT_TRUE(contains(run("wordgaze trace --help").out, "[0:4]"));
+}
+
+TEST_F(Program, TakesNumbersWithAnExponent) {
+  ASSERT_TRUE(succeeded(run("train --config tiny.toml --out a --frames 1.28e2 --set seed=2e0")));
+  EXPECT_TRUE(contains(run.read("a/config.toml"), "frames = 128"));
+  EXPECT_TRUE(contains(run.read("a/config.toml"), "seed = 2"));
+}
+
+TEST_F(Program, SaysWhatMayHaveBeenMeant) {
+  const std::string train = "train --config tiny.toml --out a ";
+  for (const std::string program : {"", "wordgaze "}) {
+    EXPECT_TRUE(refused(run(program + train + "--epochs 4"), "--epochs", "--set ppo.epochs"));
+    EXPECT_TRUE(refused(run(program + train + "--epochs=4"), "--set ppo.epochs"));
+    EXPECT_TRUE(refused(run(program + train + "--thread 1"), "--threads"));
+    EXPECT_TRUE(refused(run(program + "eval --policy bot --episode 4"), "--episodes"));
+  }
+  const auto stranger = run(train + "--xyzzyplugh");
+  EXPECT_EQ(stranger.status, 2);
+  EXPECT_TRUE(refused(stranger, "--xyzzyplugh"));
+  EXPECT_FALSE(contains(stranger.err, "did you mean"));
+  EXPECT_EQ(run(train + "--epochs 4").status, 2);
+}
+
 TEST_F(Program, BadUseExitsWithTwoAndFailureWithOne) {
   for (const std::string bad :
        {"wordgaze", "wordgaze dance", "wordgaze train", "train --out a --frames",

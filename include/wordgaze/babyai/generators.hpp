@@ -56,6 +56,9 @@ void move_two_across(Layout& layout);
 // LevelGen
 void any_mission(Layout& layout);
 
+// a level of data
+void planned(Layout& layout);
+
 // MiniGrid: to the goal
 void empty_room(Layout& layout);
 void empty_room_random_start(Layout& layout);

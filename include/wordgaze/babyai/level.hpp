@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -8,9 +9,15 @@
 #include "wordgaze/babyai/parameters.hpp"
 #include "wordgaze/grid/action.hpp"
 
+namespace wordgaze::grid {
+struct World;
+}
+
 namespace wordgaze::babyai {
 
 class Layout;
+class Verifier;
+struct Task;
 
 /// How the `done` action takes part. (docs/simulator.md, Done modes)
 enum class DoneMode : std::uint8_t {
@@ -34,6 +41,25 @@ enum class Rule : std::uint8_t {
   dynamic_obstacles,  ///< walking into something fails; the target and all behind it move about
 };
 
+/// Reward and end of a step.
+struct Verdict {
+  double reward = 0;  ///< a success is an end with a reward above 0
+  bool terminated = false;
+};
+
+/// What there is to judge of a step.
+struct Moment {
+  const grid::World& world;  ///< after it
+  const Task& task;
+  const Verifier& verifier;  ///< what is done of the instruction
+  grid::Action action;
+  Verdict rule;  ///< what the level's rule says
+};
+
+/// Reward and end as a function, in place of what the rule says. It may be called by any thread and
+/// keeps nothing: what it says depends on the moment alone.
+using Judge = std::function<Verdict(const Moment&)>;
+
 /// A generator draws one layout with its task; it throws grid::Rejected to start over. The headers
 /// to write one: layout.hpp, stages.hpp, minigrid_stages.hpp and, to build on ours, generators.hpp.
 using Generator = void (*)(Layout& layout);
@@ -51,6 +77,7 @@ struct LevelSpec {
   int actions = grid::kActions;  ///< the first so many
   bool strict = false;           ///< the wrong door or object is a failure
   Parameters parameters{};       ///< what its generator reads
+  Judge judge{};                 ///< none: the rule says
 };
 
 /// Grids have at most so many cells along a side.

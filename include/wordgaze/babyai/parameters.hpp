@@ -1,9 +1,13 @@
 #pragma once
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
 #include "wordgaze/babyai/instruction.hpp"
+#include "wordgaze/grid/cell.hpp"
+#include "wordgaze/grid/position.hpp"
 
 /// What a level tells the generators of its family, besides its rooms.
 namespace wordgaze::babyai {
@@ -73,8 +77,43 @@ struct Maze {
   bool keys_last = false;  ///< placed behind the balls, which then cannot replace them (v1)
 };
 
+/// A level of data, as level_text.hpp makes one: a map or the level's rooms, objects that are
+/// placed at random, and missions of which one is drawn.
+struct Plan {
+  /// What is placed; what is not given is drawn.
+  struct Thing {
+    std::optional<grid::Type> type{};    ///< drawn: key, ball or box
+    std::optional<grid::Color> color{};  ///< doors, keys, balls, boxes and floors have one
+    grid::DoorState state = grid::DoorState::closed;  ///< of doors
+  };
+  struct Cell {
+    grid::Position place{};
+    Thing thing{};
+  };
+  /// An instruction with gaps.
+  struct Mission {
+    struct Gap {
+      int clause = 0;
+      bool next_to = false;
+    };
+    std::string text{};  ///< as it was written
+    Instruction instruction{};
+    std::vector<Gap> gaps{};  ///< descriptions to fill with things that are there, all different
+  };
+
+  int width = 0, height = 0;              ///< of the map; 0: the level's rooms, joined by doors
+  std::vector<Cell> cells{};              ///< of the map, but the empty ones
+  std::optional<grid::Position> agent{};  ///< else anywhere
+  std::optional<grid::Direction> direction{};  ///< else any
+  std::vector<Thing> objects{};
+  bool distinct = false;            ///< no two keys, balls and boxes of the same type and color
+  std::vector<Mission> missions{};  ///< none: to reach the goal
+
+  bool is_map() const { return width > 0; }
+};
+
 /// One kind for each family of generators; none for those that ask for nothing.
 using Parameters = std::variant<std::monostate, Objects, OneRoomTask, Missions, Doors, Crossings,
-                                MultiRoom, Obstacles, ObstructedDoor, Maze>;
+                                MultiRoom, Obstacles, ObstructedDoor, Maze, Plan>;
 
 }  // namespace wordgaze::babyai

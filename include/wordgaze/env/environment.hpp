@@ -118,6 +118,8 @@ class Environment {
   template <class Archive, class Env>
   static void archive(Archive& archive, Env& env);
   [[nodiscard]] bool start(core::Rng rng);
+  Transition step_as_ruled(grid::Action action);
+  Transition step_as_judged(grid::Action action);
   [[noreturn]] void fail_to_start(const std::string& seed) const;
 
   std::shared_ptr<const babyai::LevelSpec> spec_;

@@ -27,6 +27,7 @@ void parse_section_into(std::span<const Option> options, std::string_view sectio
 void assign_into(std::span<const Option> options, std::string_view assignment);
 std::string toml_text(std::span<const Option> options);
 std::string markdown_text(std::span<const Option> options);
+std::string key_named(std::string_view name, std::span<const Option> options);
 std::vector<std::string> differences(std::span<const Option> a, std::span<const Option> b);
 }  // namespace detail
 
@@ -44,6 +45,16 @@ C parse_section(std::string_view toml, std::string_view section, std::string_vie
   detail::parse_section_into(options_of(defaults), section, toml, source);
   return defaults;
 }
+
+/// The whole key of a setting by its last name: "ppo.epochs" for "epochs"; empty when there is none
+/// or more than one.
+template <Section C>
+std::string key_named(std::string_view name, C defaults = {}) {
+  return detail::key_named(name, options_of(defaults));
+}
+
+/// The text of one key outside of all sections, whatever else there is; empty without it.
+std::string text_of(std::string_view key, std::string_view toml, std::string_view source);
 
 /// `defaults` with what the file says, which may be a pipe too.
 template <Section C>

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "wordgaze/babyai/level_text.hpp"
 #include "wordgaze/core/rng.hpp"
 #include "wordgaze/env/environment.hpp"
 #include "wordgaze/env/policy.hpp"
@@ -28,10 +29,10 @@ inline Observation observe(const env::Environment& environment) {
   return observation;
 }
 
-/// The smallest alphabet that holds every cell a level can show. Weights do not depend on it.
+/// The smallest alphabet that holds every cell a level can show.
 inline model::CellAlphabet alphabet_of(const babyai::LevelSpec& level) {
-  const bool one_room =
-      level.rows == 1 && level.columns == 1 && level.rule == babyai::Rule::instruction;
+  const bool one_room = level.rows == 1 && level.columns == 1 &&
+                        level.rule == babyai::Rule::instruction && !babyai::has_more(level);
   return one_room ? model::CellAlphabet::one_room() : model::CellAlphabet::everything();
 }
 

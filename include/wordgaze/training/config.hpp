@@ -118,6 +118,7 @@ struct CurriculumConfig {
 
 struct TrainConfig {
   std::string env = "Wordgaze-One-N8-K4-v0";
+  std::string level{};  ///< text of a level file; empty: a level that is known by its id
   std::int64_t frames = 2'000'000;
   std::int64_t seed = 1;
   int threads = 2;
@@ -132,6 +133,8 @@ struct TrainConfig {
     using C = TrainConfig;
     return std::tuple{
         Setting{"env", &C::env, "id of the environment"},
+        Setting{"level", &C::level,
+                "text of a level of one's own, of that id (train --level FILE)"},
         Setting{"frames", &C::frames, "environment steps in all", 1, 1e15},
         Setting{"seed", &C::seed, "of weights, environments and actions", 0, 9e18},
         Setting{"threads", &C::threads, "workers; the same number repeats a run bit for bit", 1,

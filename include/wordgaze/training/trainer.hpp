@@ -16,6 +16,7 @@
 #include "wordgaze/core/rng.hpp"
 #include "wordgaze/evaluation/evaluator.hpp"
 #include "wordgaze/optim/schedule.hpp"
+#include "wordgaze/policy/level_file.hpp"
 #include "wordgaze/training/gae.hpp"
 #include "wordgaze/training/lane_group.hpp"
 #include "wordgaze/training/learner.hpp"
@@ -95,7 +96,7 @@ class BasicTrainer {
   }
   /// In the level that the configuration names.
   explicit BasicTrainer(const TrainConfig& config)
-      : BasicTrainer(config, babyai::find_level(config.env)) {}
+      : BasicTrainer(config, policy::level_of(config.env, config.level)) {}
   BasicTrainer(const BasicTrainer&) = delete;
   BasicTrainer& operator=(const BasicTrainer&) = delete;
 

@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+
+#include "wordgaze/babyai/level.hpp"
+#include "wordgaze/policy/level_file.hpp"
+#include "wordgaze/training/config.hpp"
+
+namespace wordgaze::apps {
+
+/// The level of a file (--level), or of an id (--env), or else the one that was trained in.
+inline babyai::LevelSpec chosen_level(const std::string& file, const std::string& env,
+                                      const training::TrainConfig& trained) {
+  if (!file.empty()) return policy::load_level(file);
+  if (env.empty() || env == trained.env) return policy::level_of(trained.env, trained.level);
+  return babyai::find_level(env);
+}
+
+}  // namespace wordgaze::apps
