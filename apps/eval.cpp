@@ -272,7 +272,9 @@ void evaluate_policy(const Arguments& a, nlohmann::ordered_json& report) {
       "--lcm-url are for agents, which have a policy and attention to show; leave them out",
       a.policy);
   Team team(threads(a));
-  for (const auto& level : settings(a, apps::chosen_level(a.level, a.env, {.env = a.env}))) {
+  training::TrainConfig untrained;
+  untrained.env = a.env;
+  for (const auto& level : settings(a, apps::chosen_level(a.level, a.env, untrained))) {
     const Evaluation evaluation{.level = level,
                                 .episodes = a.episodes,
                                 .seed = a.seed,
