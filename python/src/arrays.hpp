@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <initializer_list>
 #include <span>
-#include <string_view>
 #include <utility>
+#include <vector>
 
 /// NumPy's arrays as spans, and values as NumPy's arrays.
 namespace wordgaze::python {
@@ -29,10 +29,11 @@ inline std::span<std::uint8_t> bytes_of(const Array<bool, nanobind::ndim<1>>& ar
 }
 
 /// A new array of NumPy's that owns a vector's numbers.
-template <class T, template <class...> class Vector>
-auto array_of(Vector<T> numbers, std::initializer_list<std::size_t> shape) {
-  auto* owned = new Vector<T>(std::move(numbers));
-  const nanobind::capsule owner(owned, [](void* p) noexcept { delete static_cast<Vector<T>*>(p); });
+template <class T>
+auto array_of(std::vector<T> numbers, std::initializer_list<std::size_t> shape) {
+  auto* owned = new std::vector<T>(std::move(numbers));
+  const nanobind::capsule owner(owned,
+                                [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
   return nanobind::ndarray<nanobind::numpy, T>(owned->data(), shape, owner);
 }
 

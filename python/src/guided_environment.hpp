@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "wordgaze/bot/bot.hpp"
+#include "wordgaze/core/rng.hpp"
 #include "wordgaze/env/environment.hpp"
 
 namespace wordgaze::python {

@@ -1,5 +1,7 @@
 #include <nanobind/nanobind.h>
 
+#include <cstdint>
+
 #include "arrays.hpp"
 #include "bindings.hpp"
 #include "guided_environment.hpp"

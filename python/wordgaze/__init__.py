@@ -24,6 +24,7 @@ from wordgaze._core import (
     level_ids,
     tokens,
 )
+from wordgaze.demos import Demonstrations, demos
 from wordgaze.env import Env
 from wordgaze.policy import Decision, Policy
 from wordgaze.registration import register
@@ -36,9 +37,11 @@ __all__ = [
     "OBJECT_TYPES",
     "VOCABULARY",
     "Decision",
+    "Demonstrations",
     "Env",
     "Policy",
     "VectorEnv",
+    "demos",
     "level_ids",
     "make_vec",
     "register",

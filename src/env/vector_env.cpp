@@ -1,6 +1,7 @@
 #include "wordgaze/env/vector_env.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "wordgaze/core/require.hpp"
