@@ -157,10 +157,10 @@ int threads(const Arguments& a) {
 }
 
 /// Where to evaluate: in the level of a file, or of an id, or in that of training.
-babyai::LevelSpec level(const Arguments& a, const training::TrainConfig& trained) {
+babyai::LevelSpec level(const Arguments& a, const std::string& env = "",
+                        const std::string& text = "") {
   if (!a.level.empty()) return policy::load_level(a.level);
-  if (a.env.empty() || a.env == trained.env) return policy::level_of(trained.env, trained.level);
-  return babyai::find_level(a.env);
+  return a.env.empty() || a.env == env ? policy::level_of(env, text) : babyai::find_level(a.env);
 }
 
 /// A trained agent in each setting, with each policy that is wanted.
@@ -170,7 +170,7 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
   if (!a.greedy && !a.sample) a.greedy = a.sample = true;
 
   // Every level is made before the first episode: a typing error should not cost an hour.
-  const auto levels = settings(a, level(a, config));
+  const auto levels = settings(a, level(a, config.env, config.level));
   a.listeners.checkpoint = a.checkpoint;
   apps::Listeners listeners(a.listeners);
   if (!a.pictures.empty()) apps::remove_old_pictures(a.pictures);
@@ -225,7 +225,7 @@ void evaluate_policy(const Arguments& a, nlohmann::ordered_json& report) {
       "for agents, which have a policy and attention to show; leave them out",
       a.policy);
   Team team(threads(a));
-  for (const auto& level : settings(a, level(a, {.env = a.env}))) {
+  for (const auto& level : settings(a, level(a))) {
     const Evaluation evaluation{.level = level,
                                 .episodes = a.episodes,
                                 .seed = a.seed,
