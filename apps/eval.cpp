@@ -186,7 +186,7 @@ void evaluate_agent(Arguments a, nlohmann::ordered_json& report) {
   if (!a.greedy && !a.sample) a.greedy = a.sample = true;
 
   // Every level is made before the first episode: a typing error should not cost an hour.
-  const auto levels = settings(a, apps::chosen_level(a.level, a.env, config));
+  const auto levels = settings(a, apps::chosen_level(a.level, a.env, config.env, config.level));
   a.listeners.checkpoint = a.checkpoint;
   apps::Listeners listeners(a.listeners);
   if (!a.pictures.empty()) apps::remove_old_pictures(a.pictures);
@@ -272,9 +272,7 @@ void evaluate_policy(const Arguments& a, nlohmann::ordered_json& report) {
       "--lcm-url are for agents, which have a policy and attention to show; leave them out",
       a.policy);
   Team team(threads(a));
-  training::TrainConfig untrained;
-  untrained.env = a.env;
-  for (const auto& level : settings(a, apps::chosen_level(a.level, a.env, untrained))) {
+  for (const auto& level : settings(a, apps::chosen_level(a.level, a.env))) {
     const Evaluation evaluation{.level = level,
                                 .episodes = a.episodes,
                                 .seed = a.seed,

@@ -58,6 +58,13 @@ std::string meant_by(const CLI::App& command, const std::string& option) {
   return best;
 }
 
+/// No values by default are no default to speak of.
+void leave_out_empty_defaults(CLI::App& app) {
+  for (CLI::Option* option : app.get_options()) {
+    if (option->get_default_str() == "[]") option->default_str("");
+  }
+}
+
 /// The command whose arguments were not understood.
 const CLI::App& innermost(const CLI::App& app) {
   const auto commands = app.get_subcommands();
@@ -89,6 +96,7 @@ int run_alone(const apps::Command& command, int argc, char** argv) {
   CLI::App app{std::string(command.about), std::string(command.name)};
   app.option_defaults()->always_capture_default();
   const auto run = command.set_up(app);
+  leave_out_empty_defaults(app);
   return parse_and_run(app, run, argc, argv);
 }
 
@@ -106,7 +114,9 @@ int run_command(const std::string& called, int argc, char** argv) {
   std::function<int()> chosen;
   for (const apps::Command& command : commands) {
     CLI::App* sub = app.add_subcommand(std::string(command.name), std::string(command.about));
-    sub->callback([&chosen, run = command.set_up(*sub)] { chosen = run; });
+    const auto run = command.set_up(*sub);
+    leave_out_empty_defaults(*sub);
+    sub->callback([&chosen, run] { chosen = run; });
   }
   return parse_and_run(
       app, [&] { return chosen(); }, argc, argv);

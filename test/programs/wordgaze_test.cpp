@@ -37,10 +37,11 @@ TEST_F(Program, SaysItsVersionAndHelpInOneWay) {
 
 TEST_F(Program, HelpSaysDefaults) {
   for (const std::string eval : {"eval --help", "wordgaze eval --help"}) {
-    EXPECT_TRUE(contains(run(eval).out, "[1000]")) << eval;  // episodes
+    EXPECT_TRUE(contains(run(eval).out, "=1000")) << eval;  // episodes
+    EXPECT_FALSE(contains(run(eval).out, "=[]")) << eval;
   }
-  EXPECT_TRUE(contains(run("bench --help").out, "[256]"));
-  EXPECT_TRUE(contains(run("wordgaze trace --help").out, "[0:4]"));
+  EXPECT_TRUE(contains(run("bench --help").out, "=256"));
+  EXPECT_TRUE(contains(run("wordgaze trace --help").out, "=0:4"));
 }
 
 TEST_F(Program, TakesNumbersWithAnExponent) {
