@@ -27,6 +27,7 @@ Action Policy::operator()(const Environment& env) {
   }
   if (!bot_) return random_(env);
   if (something_to_declare(env) && random_.percent() < 85) {
+    bot_->next(env, last_);  // it has to hear of every action: of the pickup that is declared now
     last_ = Action::done;
     return Action::done;
   }

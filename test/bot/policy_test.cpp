@@ -31,6 +31,12 @@ TEST(BotPolicy, DeclaresWhatItHasDone) {
   EXPECT_GT(successes("Wordgaze-One-N8-K4-v0", policy_maker("bot"), 500), 20);
 }
 
+// The bot hears of a pickup that is declared by the next action, and goes on with the next clause.
+TEST(BotPolicy, GoesOnAfterWhatItHasDeclared) {
+  EXPECT_GT(successes("Wordgaze-Two-N8-K4-v0", policy_maker("bot"), 1000), 20);
+  EXPECT_GT(successes("Wordgaze-Six-N8-K8-v0", policy_maker("bot"), 2000), 5);
+}
+
 TEST(BotPolicy, ActsAtRandomWhereThereIsNoInstruction) {
   const std::string_view id = "MiniGrid-DoorKey-5x5-v0";
   env::Environment env(id);
