@@ -1,4 +1,5 @@
 #include "wordgaze/policy/server.hpp"
+#include "wordgaze/core/types.hpp"
 
 #include <algorithm>
 #include <cmath>

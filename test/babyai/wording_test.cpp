@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
+#include <string>
+
 #include "grid/drawn_world.hpp"
+#include "support/messages.hpp"
 #include "wordgaze/babyai/parser.hpp"
 
 namespace wordgaze::babyai {

@@ -1,11 +1,14 @@
 // Requests to a policy server: several messages in a row, each behind its length (two bytes, most
 // significant first). What a server answers can be decoded; the same request again has the same
 // answer.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "fuzz.hpp"
+#include "wordgaze/core/rng.hpp"
 #include "wordgaze/lcm/convert.hpp"
 #include "wordgaze/lcm/decode.hpp"
 #include "wordgaze/policy/network_policy.hpp"

@@ -5,7 +5,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <csignal>
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
 #include <random>
@@ -14,6 +16,7 @@
 #include <vector>
 
 #include "support/messages.hpp"
+#include "wordgaze/core/rng.hpp"
 #include "wordgaze/lcm/convert.hpp"
 #include "wordgaze/lcm/decode.hpp"
 #include "wordgaze/lcm/origin.hpp"

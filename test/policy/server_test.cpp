@@ -10,10 +10,13 @@
 #include <memory>
 #include <numeric>
 #include <random>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/messages.hpp"
+#include "wordgaze/core/rng.hpp"
 #include "wordgaze/policy/environment.hpp"
 
 namespace wordgaze::policy {
