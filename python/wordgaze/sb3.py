@@ -124,4 +124,7 @@ class VecEnv(vec_env.VecEnv):
         return [False for _ in self._get_indices(indices)]
 
     def _chosen(self, observation: dict[str, Any]) -> dict[str, Any]:
-        return {key: observation[key] for key in self.observation_space.spaces}
+        chosen = {key: observation[key] for key in self.observation_space.spaces}
+        if self._with_mission:
+            chosen["mission"] = chosen["mission"].copy()  # PyTorch warns of what it may not write to
+        return chosen
