@@ -21,7 +21,8 @@ inline std::string register_level_file(const std::string& path) {
 inline CLI::Option* add_level_option(CLI::App& app, std::vector<std::string>& files,
                                      const std::string& about) {
   return app.add_option("--level", files, "TOML file of a level of one's own " + about)
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->allow_extra_args(false);
 }
 
 }  // namespace wordgaze::apps

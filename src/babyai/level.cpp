@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "edited_id.hpp"
+#include "own_id.hpp"
 #include "wordgaze/babyai/level_edit.hpp"
 #include "wordgaze/core/edit_distance.hpp"
 #include "wordgaze/core/formatted.hpp"
@@ -83,14 +84,20 @@ std::vector<std::string> level_ids() {
   return ids;
 }
 
-void register_level(LevelSpec level) {
-  const std::string& id = level.id;
+void check_own_id(std::string_view id) {
   // Programs take ids in lists with commas, and brackets hold edits.
-  require(!id.empty() && id.find_first_of(" \t\n,[]") == id.npos,
-          "register_level: '{}' is no id; expected one without spaces, commas and brackets",
+  const bool plain =
+      std::ranges::all_of(id, [](char c) { return static_cast<unsigned char>(c) > ' '; });
+  require(!id.empty() && plain && id.find_first_of(",[]") == id.npos,
+          "'{}' is no id of a level; expected one without spaces, commas and brackets",
           shortened(id));
   require(!is_built_in(id) && !wordgaze_level(id),
-          "register_level: '{}' is the id of a built-in level; choose another", id);
+          "'{}' is the id of a built-in level; choose another", id);
+}
+
+void register_level(LevelSpec level) {
+  const std::string& id = level.id;
+  check_own_id(id);
   validate(level);
   Registry& known = registry();
   const std::scoped_lock lock(known.mutex);

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "own_id.hpp"
 #include "wordgaze/babyai/generator.hpp"
 #include "wordgaze/babyai/generators.hpp"
 #include "wordgaze/babyai/parser.hpp"
@@ -77,7 +78,7 @@ class Reader {
         .max_steps = text_.max_steps,
         .done_mode = text_.done == Done::declared ? DoneMode::sequential : DoneMode::off,
         .see_through_walls = text_.see_through_walls};
-    expect(!text_.id.empty(), "id", "it is empty; expected a name");
+    check_own_id(text_.id);
     plan_.distinct = text_.distinct;
     read_map();
     for (const auto line : lines_of(text_.objects)) read_objects(line);

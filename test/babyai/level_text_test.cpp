@@ -184,6 +184,8 @@ LevelText with(auto&& change) {
 TEST(LevelText, MistakesAreNamed) {
   const std::vector<Mistake> mistakes{
       {"id", with([](auto& t) { t.id = ""; })},
+      {"id", with([](auto& t) { t.id = "with space"; })},
+      {"built-in", with([](auto& t) { t.id = "BabyAI-GoToLocal-v0"; })},
       {"row 2 has 3 letters, the first one 4", with([](auto& t) { t.map = "####\n#A#"; })},
       {"row 1, column 3: the letter '?'", with([](auto& t) { t.map = "#A?"; })},
       {"code 7", with([](auto& t) { t.map = "#A\a"; })},
