@@ -160,7 +160,8 @@ void play_in_terminal(const Arguments& a, const babyai::LevelSpec& level,
 }
 
 int run(const Arguments& a) {
-  const auto level = apps::chosen_level(a.level, a.env, training::load_config(a.checkpoint));
+  const auto config = training::load_config(a.checkpoint);
+  const auto level = apps::chosen_level(a.level, a.env, config.env, config.level);
   const auto trained = policy::TrainedAgent::load(a.checkpoint, policy::alphabet_of(level));
   if (a.terminal) {
     play_in_terminal(a, level, trained);

@@ -68,7 +68,8 @@ std::string summary(const policy::Server::Counts& server,
 
 int run(const Arguments& a) {
   const io::StopSignals signals("\nserve: stopping; again to stop at once\n");
-  const auto level = apps::chosen_level(a.level, a.env, training::load_config(a.checkpoint));
+  const auto config = training::load_config(a.checkpoint);
+  const auto level = apps::chosen_level(a.level, a.env, config.env, config.level);
   // As in evaluations: what a word says of a cell depends on which others there could be.
   const auto trained = policy::TrainedAgent::load(a.checkpoint, policy::alphabet_of(level));
   policy::NetworkPolicy agent(trained);
