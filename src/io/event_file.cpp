@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 enum class Coding : std::uint8_t { varint = 0, eight_bytes = 1, length = 2, four_bytes = 5 };
 
 void put_varint(std::string& out, std::uint64_t number) {
-  for (; number >= 128; number >>= 7) out += static_cast<char>(number & 127 | 128);
+  for (; number >= 128; number >>= 7) out += static_cast<char>((number & 127) | 128);
   out += static_cast<char>(number);
 }
 void put_key(std::string& out, unsigned field, Coding coding) {
