@@ -39,6 +39,7 @@ struct AnyNumbers {
   void operator()(babyai::MultiRoom& p) const { p = {small(rng) % 8, small(rng)}; }
   void operator()(babyai::Obstacles& p) const { p.count = small(rng); }
   void operator()(babyai::ObstructedDoor&) const {}
+  void operator()(babyai::Plan&) const {}  // of level files: PlannedLevel, LevelText
   void operator()(babyai::Maze& p) const {
     p.agent_column = small(rng) % 5;
     p.agent_row = small(rng) % 5;
