@@ -127,7 +127,7 @@ TEST_F(DecisionFigure, FramesTargetsInTheWorldAndInEveryView) {
   const auto add = [&](bool turn) {
     for (std::size_t c = 0; c < grid::kViewCells; ++c) {
       const auto type = static_cast<grid::Type>(image_[3 * c]);
-      if (!evaluation::is_object(type)) continue;
+      if (!grid::is_object(type)) continue;
       const auto color = static_cast<grid::Color>(image_[3 * c + 1]);
       progress_.add({.type = type, .color = color}, false, turn);
       return true;
