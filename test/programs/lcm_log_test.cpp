@@ -52,6 +52,10 @@ LogEvent timeless(LogEvent event) {
   event.timestamp = 0;
   if (event.channel == "WORDGAZE_EPISODE_BEGIN") {
     without_time(lcm_io::decode<episode_begin_t>(event.bytes));
+  } else if (event.channel == "WORDGAZE_WORLD") {
+    without_time(lcm_io::decode<world_t>(event.bytes));
+  } else if (event.channel == "WORDGAZE_PROGRESS") {
+    without_time(lcm_io::decode<progress_t>(event.bytes));
   } else if (event.channel == "WORDGAZE_STEP") {
     without_time(lcm_io::decode<step_t>(event.bytes));
   } else if (event.channel == "WORDGAZE_EPISODE_END") {
@@ -225,6 +229,10 @@ TEST_F(LcmLog, OfAnEvaluationTellsSettingsAndPoliciesApart) {
       if (runs.empty() || runs.back() != begin.run_id) runs.push_back(begin.run_id);
     } else if (event.channel == "WORDGAZE_STEP") {
       EXPECT_TRUE(ids.contains(lcm_io::decode<step_t>(event.bytes).episode_id));
+    } else if (event.channel == "WORDGAZE_WORLD") {
+      EXPECT_TRUE(ids.contains(lcm_io::decode<world_t>(event.bytes).episode_id));
+    } else if (event.channel == "WORDGAZE_PROGRESS") {
+      EXPECT_TRUE(ids.contains(lcm_io::decode<progress_t>(event.bytes).episode_id));
     } else {
       ended.insert(lcm_io::decode<episode_end_t>(event.bytes).episode_id);
     }
