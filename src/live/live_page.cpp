@@ -91,7 +91,7 @@ struct LivePage::Server {
   bool is_of_ours(const httplib::Request& request) const {
     if (!is_loopback(options.address)) return true;
     std::string host = request.get_header_value("Host");
-    host = host.substr(0, host.rfind(':'));
+    host.resize(std::min(host.size(), host.rfind(':')));  // without its port
     return is_loopback(host) || host == "[::1]";
   }
   static httplib::Server::HandlerResponse refuse(httplib::Response& reply, const char* why) {

@@ -8,22 +8,22 @@ namespace wordgaze {
 
 namespace detail {
 /// By the polynomial, its bits reversed.
-template <std::uint32_t kPolynomial>
-inline constexpr auto kCrcTable = [] {
+constexpr std::array<std::uint32_t, 256> crc_table(std::uint32_t polynomial) {
   std::array<std::uint32_t, 256> table{};
   for (std::uint32_t i = 0; i < 256; ++i) {
     std::uint32_t crc = i;
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? kPolynomial : 0u);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? polynomial : 0u);
     table[i] = crc;
   }
   return table;
-}();
+}
 
 template <std::uint32_t kPolynomial>
 constexpr std::uint32_t crc(std::string_view bytes, std::uint32_t before) {
+  constexpr auto kTable = crc_table(kPolynomial);
   std::uint32_t crc = ~before;
   for (const char byte : bytes) {
-    crc = (crc >> 8) ^ kCrcTable<kPolynomial>[(crc ^ static_cast<std::uint8_t>(byte)) & 0xFF];
+    crc = (crc >> 8) ^ kTable[(crc ^ static_cast<std::uint8_t>(byte)) & 0xFF];
   }
   return ~crc;
 }
