@@ -72,7 +72,7 @@ class TerminalScreen final : public Game::Screen, private policy::Observer {
     world_.clear();
     for (int y = 0; y < scene.height; ++y) {
       for (int x = 0; x < scene.width; ++x) {
-        const auto at = static_cast<std::size_t>(3 * (y * scene.width + x));
+        const auto at = static_cast<std::size_t>(3 * (x * scene.height + y));
         const bool agent = x == scene.agent_x && y == scene.agent_y;
         const bool target = std::ranges::find(scene.targets, grid::at(x, y)) != scene.targets.end();
         world_ += agent ? kAgents[static_cast<std::size_t>(scene.direction)]

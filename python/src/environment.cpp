@@ -22,6 +22,7 @@
 #include "wordgaze/core/rng.hpp"
 #include "wordgaze/env/effect.hpp"
 #include "wordgaze/env/environment.hpp"
+#include "wordgaze/grid/observation.hpp"
 
 namespace nb = nanobind;
 
@@ -72,20 +73,10 @@ std::vector<int> completion(const Env& env) {
 /// What the reference's Grid.encode() gives: [x][y][type, color, state].
 auto encoded_grid(const Env& env) {
   const grid::World& world = world_of(env);
-  const int width = world.grid.width(), height = world.grid.height();
   std::vector<std::uint8_t> cells;
-  cells.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
-  for (int x = 0; x < width; ++x) {
-    for (int y = 0; y < height; ++y) {
-      const grid::Object& object = world.object_at(grid::at(x, y));
-      for (const int channel : {static_cast<int>(object.type), static_cast<int>(object.color),
-                                static_cast<int>(object.state)}) {
-        cells.push_back(static_cast<std::uint8_t>(channel));
-      }
-    }
-  }
-  return array_of(std::move(cells),
-                  {static_cast<std::size_t>(width), static_cast<std::size_t>(height), 3});
+  grid::write_cells(world, cells);
+  return array_of(std::move(cells), {static_cast<std::size_t>(world.grid.width()),
+                                     static_cast<std::size_t>(world.grid.height()), 3});
 }
 
 /// An object as (id, type, color, state, contents), contents as another one or None.

@@ -54,8 +54,8 @@ void observe(const World& world, ImageView image) {
 
 void write_cells(const World& world, std::vector<std::uint8_t>& cells) {
   cells.clear();
-  for (int y = 0; y < world.grid.height(); ++y) {
-    for (int x = 0; x < world.grid.width(); ++x) {
+  for (int x = 0; x < world.grid.width(); ++x) {
+    for (int y = 0; y < world.grid.height(); ++y) {
       const auto code = code_of(world.object_at(at(x, y)));
       cells.insert(cells.end(), code.begin(), code.end());
     }

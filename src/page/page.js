@@ -99,7 +99,7 @@
     const cells = new Uint8Array(3 * width * height);
     for (const [key, code] of seen) {
       const [x, y] = key.split(',').map(Number);
-      cells.set(code, 3 * (y * width + x));
+      cells.set(code, 3 * (x * height + y));
     }
     return {size: [width, height], cells, whole: false};
   }
@@ -113,7 +113,7 @@
     let svg = '';
     for (let y = 0; y < height; ++y) {
       for (let x = 0; x < width; ++x) {
-        const at = 3 * (y * width + x), type = cells[at];
+        const at = 3 * (x * height + y), type = cells[at];
         if (type === TYPE.unseen) continue;
         svg += `<rect x="${x}" y="${y}" width="1.01" height="1.01" fill="${lit.has(`${x},${y}`) ? '#3a3f4b' : '#16181d'}"/>`;
         svg += placed(x, y, glyph(type, cells[at + 1], cells[at + 2]));

@@ -43,12 +43,7 @@ void for_each_cell(const World& world, Visit visit) {
 // The whole grid as the reference encodes it: x-major, type, color and state of each cell.
 std::vector<std::uint8_t> encoded_grid(const World& world) {
   std::vector<std::uint8_t> bytes;
-  for_each_cell(world, [&](Position p) {
-    const grid::Object& object = world.object_at(p);
-    bytes.insert(bytes.end(),
-                 {static_cast<std::uint8_t>(object.type), static_cast<std::uint8_t>(object.color),
-                  static_cast<std::uint8_t>(object.state)});
-  });
+  grid::write_cells(world, bytes);
   return bytes;
 }
 

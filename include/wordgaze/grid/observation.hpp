@@ -22,8 +22,8 @@ using VisibleRows = std::array<std::uint8_t, kViewSize>;
 /// Writes what the agent sees; cells that it does not see are (0, 0, 0).
 void observe(const World& world, ImageView image);
 
-/// Writes all cells of a world row by row from the top left as [y][x][channel], channels as above;
-/// an empty cell is (1, 0, 0), and the agent is not among them.
+/// Writes all cells of a world, as the reference's Grid.encode(): [x][y][channel], channels as
+/// above. An empty cell is (1, 0, 0), and the agent is not among them.
 void write_cells(const World& world, std::vector<std::uint8_t>& cells);
 
 /// The cells of the view that the agent sees.

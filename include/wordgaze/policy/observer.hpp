@@ -31,7 +31,7 @@ struct SceneRecord {
   int lane = 0;
   int step = 0;
   int width = 0, height = 0;              ///< of the world, in cells
-  std::span<const std::uint8_t> cells{};  ///< [height][width][3] as grid::write_cells says
+  std::span<const std::uint8_t> cells{};  ///< [width][height][3] of grid::write_cells
   int agent_x = -1, agent_y = -1;
   int direction = 0;
   std::array<std::uint8_t, 3> carried{1, 0, 0};  ///< type, color, door state; empty: nothing
